@@ -1,0 +1,34 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "littoral/coupler/partner.hpp"
+
+namespace littoral::coupler {
+
+/// Exact state at a point and time.
+struct FlowState {
+  double p = 0.0;
+  Vec3 u{};
+  double phi = -1.0e30;
+};
+using Flow = std::function<FlowState(const Vec3& x, double t)>;
+
+// Flows by formula; 2-D ones lie in the plane (x, z).
+Flow uniform_stream(const Vec3& velocity, double pressure);
+/// p = p0 - rho0 g (z - level), with g > 0 pointing down.
+Flow hydrostatic(double density, double gravity, double level, double reference_pressure);
+/// Decaying array of vortices of wavelength L and speed U, advected by `stream`.
+Flow taylor_vortex(double density, double speed, double wavelength, double viscosity, const Vec3& stream);
+/// Inviscid standing wave on depth H to first order, eta = a cos(kx) sin(wt) (flat at t = 0).
+Flow standing_wave(double density, double gravity, double depth, double wavenumber, double amplitude);
+
+/// A grid that knows the flow: donors on a uniform lattice of centres of spacing h, derivatives exact
+/// (central differences in time). Lets sph_solver run its whole coupling path in one process.
+std::unique_ptr<FvPartner> analytic_fv_partner(const Flow& flow, const RunPlan& plan, double spacing,
+                                               int dimension);
+/// Particles that know the flow: samples are exact.
+std::unique_ptr<SphPartner> analytic_sph_partner(const Flow& flow, const RunPlan& plan);
+
+}  // namespace littoral::coupler

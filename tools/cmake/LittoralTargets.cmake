@@ -1,0 +1,53 @@
+# What every target of the project shares. Flags hang on one interface target, never on the directory.
+
+add_library(littoral_options INTERFACE)
+target_compile_options(
+  littoral_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+                             # sqrt vectorises only without errno; NaN checks stay alive: no -ffinite-math-only
+                             -fno-math-errno)
+if(LITTORAL_WERROR)
+  target_compile_options(littoral_options INTERFACE -Werror)
+endif()
+if(LITTORAL_NATIVE)
+  # 256-bit lanes beat 512-bit ones for the gathers of the pair loops
+  target_compile_options(littoral_options INTERFACE -march=native -mprefer-vector-width=256)
+endif()
+if(LITTORAL_SANITIZE)
+  target_compile_options(littoral_options INTERFACE -fsanitize=${LITTORAL_SANITIZE} -fno-omit-frame-pointer)
+  target_link_options(littoral_options INTERFACE -fsanitize=${LITTORAL_SANITIZE})
+endif()
+
+# littoral_gtest(NAME name PREFIX ctest-prefix SOURCES ... LIBS ...): one GoogleTest program, each case a ctest.
+function(littoral_gtest)
+  cmake_parse_arguments(T "" "NAME;PREFIX;TIMEOUT" "SOURCES;LIBS" ${ARGN})
+  if(NOT T_TIMEOUT)
+    set(T_TIMEOUT 60)
+  endif()
+  add_executable(${T_NAME} ${T_SOURCES})
+  target_link_libraries(${T_NAME} PRIVATE ${T_LIBS} littoral_options GTest::gtest_main)
+  gtest_discover_tests(
+    ${T_NAME}
+    TEST_PREFIX ${T_PREFIX}.
+    WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}
+    DISCOVERY_TIMEOUT 60
+    PROPERTIES TIMEOUT ${T_TIMEOUT})
+endfunction()
+
+# littoral_mpi_test(NAME ctest-name RANKS n COMMAND ... [TIMEOUT s] [PASS regex] [FAILS]): one mpirun job in a
+# folder of its own. COMMAND may be an MPMD line ("a : -n 2 b"). FAILS: the job must exit non-zero.
+function(littoral_mpi_test)
+  cmake_parse_arguments(T "FAILS" "NAME;RANKS;TIMEOUT;PASS" "COMMAND" ${ARGN})
+  if(NOT T_TIMEOUT)
+    set(T_TIMEOUT 60)
+  endif()
+  set(folder ${CMAKE_CURRENT_BINARY_DIR}/${T_NAME})
+  file(MAKE_DIRECTORY ${folder})
+  add_test(NAME ${T_NAME}
+           COMMAND ${CMAKE_SOURCE_DIR}/tests/support/mpi_test ${T_TIMEOUT} $<IF:$<BOOL:${T_FAILS}>,fails,passes>
+                   "${T_PASS}" ${MPIEXEC_EXECUTABLE} --oversubscribe -n ${T_RANKS} ${T_COMMAND}
+           WORKING_DIRECTORY ${folder})
+  math(EXPR outer "${T_TIMEOUT} + 15")
+  set_tests_properties(
+    ${T_NAME} PROPERTIES TIMEOUT ${outer} ENVIRONMENT
+                         "OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OMP_NUM_THREADS=1")
+endfunction()
