@@ -36,8 +36,29 @@ struct Particles {
   std::array<Column, D> normal;  // unit, out of the water, where surface != none
   std::array<Column, D> shift;   // [m/s] velocity of (14), added to u when positions move
   std::vector<std::int64_t> id;  // never reused
+  /// Memory of the last search among the partner's donor cells, -1: none. Travels with the particle and is
+  /// part of a checkpoint, because the walk from another hint may end in a neighbouring, equally good cell.
+  std::vector<std::int64_t> donor_hint;
 
   std::size_t size() const { return n_owned + n_ghost; }
+
+  /// Calls f(column) for every column that owned and ghost particles have.
+  template <class F>
+  void for_each_shared_column(F&& f) {
+    for (auto& column : x) f(column);
+    for (auto& column : u) f(column);
+    for (Column* column : {&V, &m, &rho, &p}) f(*column);
+  }
+  /// Calls f(column) for every column that only owned particles have.
+  template <class F>
+  void for_each_owned_column(F&& f) {
+    f(zone);
+    f(surface);
+    for (auto& column : normal) f(column);
+    for (auto& column : shift) f(column);
+    f(id);
+    f(donor_hint);
+  }
 };
 
 }  // namespace littoral::sph
