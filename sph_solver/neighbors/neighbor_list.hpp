@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "neighbors/cell_grid.hpp"
+#include "particles/particles.hpp"
+
+namespace littoral::sph {
+
+/// Neighbours of every owned particle within the kernel radius plus a skin, itself excluded, as one
+/// compressed row per particle. As long as nobody has moved further than half the skin since the lists were
+/// built they hold every pair within the kernel radius; pairs in the skin see a kernel of zero. Rows and
+/// their order do not depend on the number of threads.
+template <int D>
+class NeighborList {
+ public:
+  NeighborList(double kernel_radius, double skin) : kernel_radius_(kernel_radius), skin_(skin) {}
+
+  double kernel_radius() const { return kernel_radius_; }  ///< R [m]
+  double reach() const { return kernel_radius_ + skin_; }  ///< [m] within which copies must exist at build
+
+  /// Order that sorts the owned particles by cell, for Particles::permute. Does not touch the lists.
+  const std::vector<std::int32_t>& space_order(const Particles<D>& particles);
+  /// From the positions of owned particles and copies.
+  void build(const Particles<D>& particles);
+  /// True if particles were added, removed or moved by more than half the skin since build().
+  bool outdated(const Particles<D>& particles) const;
+
+  std::size_t n_rows() const { return start_.empty() ? 0 : start_.size() - 1; }
+  std::size_t n_pairs() const { return list_.size(); }  ///< directed, those of the skin included
+  const std::size_t* start() const { return start_.data(); }
+  const std::int32_t* list() const { return list_.data(); }
+
+  /// Calls f(j) for every particle j, owned or copy, that may lie within the kernel radius of any point x:
+  /// the caller tests the distance. Valid while not outdated().
+  template <class F>
+  void for_each_near(const std::array<double, D>& x, const F& f) const {
+    const auto& order = grid_.order();
+    grid_.for_each_range(x, reach(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) f(static_cast<std::size_t>(order[k]));
+    });
+  }
+
+ private:
+  double kernel_radius_;
+  double skin_;
+  CellGrid<D> grid_;
+  std::array<std::vector<double>, D> x_sorted_;    // positions in the grid's order
+  std::array<std::vector<double>, D> x_at_build_;  // of the owned
+  std::vector<std::size_t> start_;
+  std::vector<std::int32_t> list_;
+  CellGrid<D> owned_grid_;
+};
+
+extern template class NeighborList<2>;
+extern template class NeighborList<3>;
+
+}  // namespace littoral::sph
