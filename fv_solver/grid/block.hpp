@@ -3,7 +3,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
+
+#include "boundary/window.hpp"
 
 namespace littoral::fv {
 
@@ -19,8 +22,8 @@ enum class CellStatus : std::uint8_t { computed = 0, blanked = 1, fringe = 2, fo
 /// all.
 template <int D>
 struct Extent {
-  std::array<int, D> n{};                  // cells without ghosts
-  std::array<std::ptrdiff_t, D> stride{};  // of a cell array with ghosts
+  std::array<int, D> n{};                  // cells (or nodes) without ghosts
+  std::array<std::ptrdiff_t, D> stride{};  // of an array with ghosts
   std::ptrdiff_t origin = 0;               // offset of cell (0, ..., 0)
   std::size_t size = 0;                    // cells with ghosts
 
@@ -39,32 +42,64 @@ struct Extent {
     for (std::size_t d = 0; d < D; ++d) offset += index[d] * stride[d];
     return offset;
   }
+  /// the index whose offset this is
+  std::array<int, D> index(std::ptrdiff_t offset) const {
+    std::array<int, D> i{};
+    for (std::size_t d = D; d-- > 0;) {
+      i[d] = static_cast<int>(offset / stride[d]) - k_ghost;
+      offset %= stride[d];
+    }
+    return i;
+  }
+  std::ptrdiff_t cells() const {
+    std::ptrdiff_t c = 1;
+    for (int m : n) c *= m;
+    return c;
+  }
 };
 
 using Field = std::vector<double>;
+template <int D>
+using VectorField = std::array<Field, D>;
 
-/// Geometry of one curvilinear block. Face f of direction d at offset c is the lower face of cell c (between
-/// c - stride[d] and c), so face arrays have the layout of cell arrays.
+/// One curvilinear block: geometry, the role of each cell, and the conditions on its faces.
+/// Face f of direction d at offset c is the lower face of cell c (between c - stride[d] and c), so face
+/// arrays have the layout of cell arrays. Filled by set_metrics (grid/metrics.hpp) from the corner nodes.
 template <int D>
 struct Block {
-  Extent<D> extent;
-  std::array<Field, D> node;    // [m] corner coordinates; node c is the lower corner of cell c, so the arrays
-                                //     have the cell layout with one layer more: see metrics
-  std::array<Field, D> centre;  // [m] cell centres, ghosts included
-  Field volume;                 // [m^D] ghosts included (mirrored or periodic)
-  std::array<std::array<Field, D>, D>
-      area;  // [direction][component] [m^(D-1)] area vector of the lower face, along +direction
-  std::vector<CellStatus> status;  // ghosts: fringe
+  std::string name;
+  Extent<D> extent;                    // of cells
+  Extent<D> node_extent;               // of nodes: one more than cells in each direction
+  std::array<bool, D> periodic{};      // the block closes on itself in this direction
+  VectorField<D> node;                 // [m] node (i, j, k) is the lower corner of cell (i, j, k); ghosts set
+  VectorField<D> centre;               // [m] mean of the corners, ghosts included
+  Field volume;                        // [m^D] ghosts included (mirrored or periodic)
+  std::array<VectorField<D>, D> area;  // [direction][component] [m^(D-1)] lower face, along +direction
+  Field reference_pressure;            // [Pa] hydrostatic P(x), ghosts included: see physics/fluid.hpp
+  std::vector<CellStatus> status;      // ghosts: fringe
+  Field solved;                        // 1 where the rows are solved (computed, forced), else 0; ghosts 0
+  std::vector<Window<D>> windows;      // cover every face once
 };
 
 /// Unknowns of one block: pressure and velocity at the cell centres, ghosts included.
 template <int D>
 struct State {
-  Field p;                 // [Pa]
-  std::array<Field, D> u;  // [m/s]
+  Field p;           // [Pa]
+  VectorField<D> u;  // [m/s]
   void resize(std::size_t n) {
     p.assign(n, 0.0);
     for (auto& component : u) component.assign(n, 0.0);
+  }
+};
+
+/// Left-hand sides of (4) and (5) for each cell of a block, as forces and mass rates; ghosts 0.
+template <int D>
+struct Residual {
+  Field mass;               // [kg/s]
+  VectorField<D> momentum;  // [N]
+  void resize(std::size_t n) {
+    mass.assign(n, 0.0);
+    for (auto& component : momentum) component.assign(n, 0.0);
   }
 };
 

@@ -1,0 +1,281 @@
+#include "boundary/ghosts.hpp"
+
+#include <cmath>
+
+#include "grid/loops.hpp"
+#include "littoral/error.hpp"
+
+namespace littoral::fv {
+
+const char* name(Condition condition) {
+  switch (condition) {
+    case Condition::wall:
+      return "wall";
+    case Condition::slip:
+      return "slip";
+    case Condition::symmetry:
+      return "symmetry";
+    case Condition::inflow:
+      return "inflow";
+    case Condition::outflow:
+      return "outflow";
+    case Condition::far_field:
+      return "far_field";
+    case Condition::state:
+      return "state";
+    case Condition::periodic:
+      return "periodic";
+    case Condition::fringe:
+      return "fringe";
+  }
+  return "?";
+}
+
+template <int D>
+void grown_box(const Block<D>& block, const Window<D>& window, std::array<int, D>& lower,
+               std::array<int, D>& upper) {
+  lower = window.lower;
+  upper = window.upper;
+  for (std::size_t d = 0; d < D; ++d) {
+    if (static_cast<int>(d) == window.direction) {
+      lower[d] = window.side == 0 ? 0 : block.extent.n[d] - 1;
+      upper[d] = lower[d] + 1;
+    } else if (static_cast<int>(d) < window.direction) {
+      if (lower[d] == 0) lower[d] = -k_ghost;
+      if (upper[d] == block.extent.n[d]) upper[d] += k_ghost;
+    }
+  }
+}
+
+namespace {
+
+template <int D>
+std::array<double, 3> in_space(const std::array<double, D>& x) {
+  if constexpr (D == 2) return {x[0], 0.0, x[1]};
+  if constexpr (D == 3) return {x[0], x[1], x[2]};
+}
+
+/// Centre of the face between two cells whose ghost is the inner one's mirror image.
+template <int D>
+std::array<double, D> point_between(const Block<D>& block, std::ptrdiff_t a, std::ptrdiff_t b) {
+  std::array<double, D> x;
+  for (std::size_t d = 0; d < D; ++d)
+    x[d] =
+        0.5 * (block.centre[d][static_cast<std::size_t>(a)] + block.centre[d][static_cast<std::size_t>(b)]);
+  return x;
+}
+
+/// Everything the ghost formulas need along one line normal to a face: offsets outward and inward.
+template <int D>
+struct Line {
+  std::size_t inner[3];     // first, second, third inner cell
+  std::size_t ghost[2];     // first, second ghost cell
+  std::size_t face;         // offset whose lower face is the boundary face
+  std::size_t opposite[2];  // cells that are periodic images of the ghosts
+  Line(const Block<D>& block, const Window<D>& w, std::ptrdiff_t first) {
+    const auto d = static_cast<std::size_t>(w.direction);
+    const std::ptrdiff_t s = block.extent.stride[d] * (w.side == 0 ? 1 : -1);
+    const int n = block.extent.n[d];
+    for (int k = 0; k < 3; ++k) inner[k] = static_cast<std::size_t>(first + std::min(k, n - 1) * s);
+    for (int k = 0; k < 2; ++k) {
+      ghost[k] = static_cast<std::size_t>(first - (k + 1) * s);
+      opposite[k] = static_cast<std::size_t>(first + (n - 1 - std::min(k, n - 1)) * s);
+    }
+    face = static_cast<std::size_t>(w.side == 0 ? first : first - s);
+  }
+};
+
+/// Unit normal of the boundary face, into the block.
+template <int D>
+std::array<double, D> inward(const Block<D>& block, const Window<D>& w, std::size_t face) {
+  std::array<double, D> n;
+  double measure = 0.0;
+  for (std::size_t k = 0; k < D; ++k) {
+    n[k] = block.area[static_cast<std::size_t>(w.direction)][k][face];
+    measure += n[k] * n[k];
+  }
+  measure = (w.side == 0 ? 1.0 : -1.0) / std::sqrt(measure);
+  for (double& component : n) component *= measure;
+  return n;
+}
+
+/// Distances of the first two inner centres from the face, along its normal.
+template <int D>
+void normal_distances(const Block<D>& block, const Line<D>& line, const std::array<double, D>& n, double& d0,
+                      double& d1) {
+  d0 = d1 = 0.0;
+  for (std::size_t k = 0; k < D; ++k) {
+    const auto& x = block.centre[k];
+    const double face = 0.5 * (x[line.inner[0]] + x[line.ghost[0]]);
+    d0 += n[k] * (x[line.inner[0]] - face);
+    d1 += n[k] * (x[line.inner[1]] - face);
+  }
+}
+
+}  // namespace
+
+template <int D>
+void evaluate_windows(Block<D>& block, const Equations<D>& equations, double t) {
+  for (Window<D>& w : block.windows) {
+    const bool uses_u = w.condition == Condition::wall || w.condition == Condition::inflow ||
+                        w.condition == Condition::far_field || w.condition == Condition::state;
+    const bool uses_p = w.condition == Condition::outflow || w.condition == Condition::far_field ||
+                        w.condition == Condition::state;
+    if (!uses_u && !uses_p) continue;
+    const std::size_t layers = w.condition == Condition::state ? 2 : 1;
+    for (std::size_t layer = 0; layer < layers; ++layer) {
+      w.given_p[layer].clear();
+      for (auto& u : w.given_u[layer]) u.clear();
+      std::array<int, D> lower, upper;
+      grown_box<D>(block, w, lower, upper);
+      for_each_index<D>(lower, upper, [&](const std::array<int, D>& index) {
+        const Line<D> line(block, w, block.extent.at(index));
+        const auto at_layer = static_cast<std::ptrdiff_t>(line.ghost[layer]);
+        const auto x = point_between<D>(
+            block, w.condition == Condition::state ? at_layer : static_cast<std::ptrdiff_t>(line.inner[0]),
+            at_layer);
+        if (uses_u)
+          for (std::size_t k = 0; k < D; ++k)
+            w.given_u[layer][k].push_back(w.velocity[k] ? w.velocity[k](in_space<D>(x), t) : 0.0);
+        if (uses_p)
+          w.given_p[layer].push_back(w.pressure ? w.pressure(in_space<D>(x), t)
+                                                : equations.fluid.hydrostatic(x));
+      });
+    }
+  }
+}
+
+namespace {
+
+template <int D>
+void fill_window(const Block<D>& block, const Window<D>& w, State<D>& q) {
+  std::array<int, D> lower, upper;
+  grown_box<D>(block, w, lower, upper);
+  const double* reference = block.reference_pressure.data();
+  double* p = q.p.data();
+  std::size_t flat = 0;
+  for_each_index<D>(lower, upper, [&](const std::array<int, D>& index) {
+    const Line<D> line(block, w, block.extent.at(index));
+    const std::size_t i0 = line.inner[0], i1 = line.inner[1], g0 = line.ghost[0], g1 = line.ghost[1];
+    const double p0 = p[i0] - reference[i0], p1 = p[i1] - reference[i1];
+    const std::array<double, D> n = inward(block, w, line.face);
+    double d0, d1;
+    normal_distances<D>(block, line, n, d0, d1);
+    const bool single = i0 == i1;  // one cell across: nothing to extrapolate from
+    const double slope = single ? 0.0 : (p0 - p1) / (d1 - d0);
+    switch (w.condition) {
+      case Condition::wall:
+      case Condition::inflow: {
+        // quadratic through the face's value and two cells: the wall's friction is exact for a parabola
+        const double w_face = single ? 2.0 : 2.0 * (d0 + d1) / d1;
+        const double w_0 = single ? -1.0 : (d0 + d1) / (d0 - d1);
+        const double w_1 = single ? 0.0 : 2.0 * d0 * d0 / (d1 * (d1 - d0));
+        for (std::size_t k = 0; k < D; ++k) {
+          double* u = q.u[k].data();
+          const double u_face = w.given_u[0][k][flat];
+          u[g0] = w_face * u_face + w_0 * u[i0] + w_1 * u[i1];
+          u[g1] = 2.0 * u_face - u[i1];
+        }
+        p[g0] = reference[g0] + p0 + 2.0 * d0 * slope;
+        p[g1] = reference[g1] + p0 + (d0 + d1) * slope;
+        break;
+      }
+      case Condition::slip:
+      case Condition::symmetry: {
+        for (int layer = 0; layer < 2; ++layer) {
+          const std::size_t i = line.inner[layer], g = line.ghost[layer];
+          double u_n = 0.0;
+          for (std::size_t k = 0; k < D; ++k) u_n += n[k] * q.u[k][i];
+          for (std::size_t k = 0; k < D; ++k) q.u[k][g] = q.u[k][i] - 2.0 * u_n * n[k];
+        }
+        const bool mirror = w.condition == Condition::symmetry;
+        p[g0] = reference[g0] + (mirror ? p0 : p0 + 2.0 * d0 * slope);
+        p[g1] = reference[g1] + (mirror ? p1 : p0 + (d0 + d1) * slope);
+        break;
+      }
+      case Condition::outflow: {
+        for (std::size_t k = 0; k < D; ++k) {
+          double* u = q.u[k].data();
+          u[g0] = u[i0];
+          u[g1] = u[i0];
+        }
+        // the reference at the face: mean of both sides, which is exact where P is linear
+        const double p_face = w.given_p[0][flat] - 0.5 * (reference[i0] + reference[g0]);
+        p[g0] = reference[g0] + 2.0 * p_face - p0;
+        p[g1] = reference[g1] + 2.0 * p_face - p1;
+        break;
+      }
+      case Condition::far_field:
+        for (const std::size_t g : {g0, g1}) {
+          for (std::size_t k = 0; k < D; ++k) q.u[k][g] = w.given_u[0][k][flat];
+          p[g] = reference[g] + w.given_p[0][flat] - 0.5 * (reference[i0] + reference[g0]);
+        }
+        break;
+      case Condition::state:
+        for (std::size_t layer = 0; layer < 2; ++layer) {
+          const std::size_t g = line.ghost[layer];
+          for (std::size_t k = 0; k < D; ++k) q.u[k][g] = w.given_u[layer][k][flat];
+          p[g] = w.given_p[layer][flat];
+        }
+        break;
+      case Condition::periodic:
+        for (int layer = 0; layer < 2; ++layer) {
+          const std::size_t g = line.ghost[layer], o = line.opposite[layer];
+          for (std::size_t k = 0; k < D; ++k) q.u[k][g] = q.u[k][o];
+          p[g] = reference[g] + p[o] - reference[o];
+        }
+        break;
+      case Condition::fringe:
+        break;
+    }
+    ++flat;
+  });
+}
+
+}  // namespace
+
+template <int D>
+void fill_ghosts(const Block<D>& block, State<D>& q) {
+  for (int d = 0; d < D; ++d)
+    for (const Window<D>& w : block.windows)
+      if (w.direction == d) fill_window(block, w, q);
+}
+
+template <int D>
+void check_windows(const Block<D>& block) {
+  for (int d = 0; d < D; ++d)
+    for (int side = 0; side < 2; ++side) {
+      std::array<int, D> lower{}, upper = block.extent.n;
+      lower[static_cast<std::size_t>(d)] = 0;
+      upper[static_cast<std::size_t>(d)] = 1;
+      for_each_index<D>(lower, upper, [&](const std::array<int, D>& index) {
+        int count = 0;
+        for (const Window<D>& w : block.windows) {
+          if (w.direction != d || w.side != side) continue;
+          bool inside = true;
+          for (std::size_t k = 0; k < D; ++k)
+            if (static_cast<int>(k) != d) inside = inside && index[k] >= w.lower[k] && index[k] < w.upper[k];
+          count += inside ? 1 : 0;
+        }
+        if (count == 1) return;
+        std::string cell;
+        for (std::size_t k = 0; k < D; ++k)
+          if (static_cast<int>(k) != d) cell += (cell.empty() ? "" : ", ") + std::to_string(index[k]);
+        throw ConfigError("block '" + block.name + "', " + (side == 0 ? "lower" : "upper") +
+                          " face of direction " + std::to_string(d) + ", cell (" + cell + ") has " +
+                          std::to_string(count) +
+                          " conditions; the windows of a face must cover it exactly once");
+      });
+    }
+}
+
+template void grown_box<2>(const Block<2>&, const Window<2>&, std::array<int, 2>&, std::array<int, 2>&);
+template void grown_box<3>(const Block<3>&, const Window<3>&, std::array<int, 3>&, std::array<int, 3>&);
+template void evaluate_windows(Block<2>&, const Equations<2>&, double);
+template void evaluate_windows(Block<3>&, const Equations<3>&, double);
+template void fill_ghosts(const Block<2>&, State<2>&);
+template void fill_ghosts(const Block<3>&, State<3>&);
+template void check_windows(const Block<2>&);
+template void check_windows(const Block<3>&);
+
+}  // namespace littoral::fv

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace littoral::fv {
+
+/// What closes the equations on a part of a block's face.
+///   wall       no slip: u = u_wall (which may slide), no mass flux, p extrapolated
+///   slip       no mass flux, mirrored velocity, p extrapolated (also on curved walls)
+///   symmetry   mirror image of everything
+///   inflow     u given, p extrapolated
+///   outflow    p given, u extrapolated
+///   far_field  Riemann problem against a given state, with a wave speed of the order of the stream's
+///   state      p and u given in both ghost layers, ordinary flux
+///   periodic   the opposite face of the same block
+///   fringe     ghost layers imposed from outside (partner or other block), ordinary flux
+enum class Condition : std::uint8_t {
+  wall,
+  slip,
+  symmetry,
+  inflow,
+  outflow,
+  far_field,
+  state,
+  periodic,
+  fringe
+};
+const char* name(Condition condition);
+
+/// A value given by the user at a point and time; x, y, z whatever the dimension.
+using Prescribed = std::function<double(const std::array<double, 3>& x, double t)>;
+
+/// One window: a range of cells along one face of a block, with its condition.
+template <int D>
+struct Window {
+  std::string name;  // of the wall or opening, for forces and messages
+  Condition condition = Condition::wall;
+  int direction = 0;                   // of the face's normal
+  int side = 0;                        // 0 lower, 1 upper
+  std::array<int, D> lower{};          // first cell, tangential directions; entry [direction] is not used
+  std::array<int, D> upper{};          // one past the last cell
+  std::array<Prescribed, D> velocity;  // [m/s] empty: 0
+  Prescribed pressure;                 // [Pa] absolute; empty: the hydrostatic reference
+  double wave_speed = 0.0;             // [m/s] far_field only; 0: |u| of the given state, at least c0/10
+
+  /// Given values at the time last set by evaluate_windows, over the window grown into the ghosts of lower
+  /// directions, per layer (0: at the face, or the first ghost layer for `state`; 1: second ghost layer).
+  std::array<std::vector<double>, 2> given_p;                 // [Pa]
+  std::array<std::array<std::vector<double>, D>, 2> given_u;  // [m/s]
+};
+
+}  // namespace littoral::fv

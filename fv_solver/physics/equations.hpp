@@ -1,0 +1,65 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "grid/block.hpp"
+#include "physics/fluid.hpp"
+#include "physics/time_scheme.hpp"
+
+namespace littoral::fv {
+
+enum class Limiter : std::uint8_t { none, van_albada };
+
+/// The two speeds of the Riemann problem (F8): c0 = sqrt(beta) in the momentum's dissipation; in the mass
+/// flux c_p = max(c0, kappa h/dt), which makes the dissipation of pressure the compact Laplacian of the
+/// projected equations. Residual, Jacobian and coarse levels use the same rule, each with its own h.
+struct WaveSpeeds {
+  double c0 = 1.0;     // [m/s]
+  double kappa = 0.5;  // [-]
+  /// h: volume of the face's dual cell over the face's measure [m]
+  double mass(double h, double dt) const { return std::max(c0, kappa * h / dt); }
+};
+
+/// Forcing of (21) on one block: empty arrays where the block has no forced cell.
+template <int D>
+struct Forcing {
+  Field rate;        // K/delta [1/s], 0 in cells that are not forced
+  State<D> target;   // q*
+  double psi = 0.0;  // [s^2/m^2] d rho/d p in the mass row: 1/c^2, or 1/c0^2 where c is infinite
+  bool active() const { return !rate.empty(); }
+};
+
+/// The old time levels and sources of one step, per volume: the time term of a row is
+/// V (a0 q + history), q = rho or rho u. Steady: zero (or minus the sources).
+template <int D>
+using History = Residual<D>;  // [kg/(m^3 s)], [N/m^3]
+
+/// The discrete equations (4)-(5) of one fluid: what every block solves. A row's residual is
+///
+///   mass      V (a0 rho + history) + sum_f m_f                       [+ V K/delta psi (p - p*)]
+///   momentum  V (a0 rho u + history) + sum_f (m_f u_f + p_f A - T A) - V (rho - rho(P)) g
+///                                                                    [+ V K/delta rho0 (u - u*)]
+/// with pressures relative to the hydrostatic reference P, and at a face with area vector A, S = |A|,
+/// states L and R by third-order reconstruction of p - P and u (F6-F8):
+///
+///   m_f = rho_f [ (u_L + u_R)/2 . A + S (p_L - p_R) / (2 rho0 c_p) ]
+///   p_f = (p_L + p_R)/2 + rho0 c0 (u_L - u_R) . A / (2 S)
+///   u_f = u_L where m_f > 0, else u_R
+///
+/// Rows of blanked and fringe cells are zero.
+template <int D>
+struct Equations {
+  Fluid<D> fluid;
+  WaveSpeeds speeds;
+  Limiter limiter = Limiter::none;
+
+  /// in   q with ghosts current (fill_ghosts), block metrics, windows evaluated
+  /// out  r (resized if needed), inner cells
+  /// comm local; OpenMP inside
+  void residual(const Block<D>& block, const State<D>& q, const BackwardDifference& time,
+                const History<D>& history, const Forcing<D>& forcing, Residual<D>& r) const;
+};
+
+}  // namespace littoral::fv
