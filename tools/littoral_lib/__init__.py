@@ -1,0 +1,1 @@
+"""What stands behind tools/littoral: launching, collecting, checking, pictures, verification."""

@@ -1,0 +1,101 @@
+"""The mpirun line of a job, and the job itself."""
+
+import collections
+import os
+import re
+import signal
+import subprocess
+import time
+
+from . import programs
+from .settings import route
+
+GRACE = 5.0  # [s] a job may take to end after it was asked to, before it is killed
+
+
+def mpi_line(scene, out, ranks, restart_files=None, extra=None, bin_dir=None):
+    """Command of the job: one program, or an MPMD line with SPH first. `ranks` = {program: n}."""
+    dealt = route(scene.settings, scene.programs)
+    total = sum(ranks[p] for p in scene.programs)
+    line = ["mpirun"]
+    if is_open_mpi():
+        line += ["--bind-to", "none"] + (["--oversubscribe"] if total > 1 else [])
+    for index, program in enumerate(scene.programs):
+        part = [":"] if index else []
+        part += ["-n", str(ranks[program]), programs.find(f"{program}_solver", bin_dir),
+                 "--config", str(scene.folder / f"{program}.yaml"), "--out", str(out)]
+        for setting in dealt[program]:
+            part += ["--set", setting]
+        if restart_files:
+            part += ["--restart", str(restart_files[program])]
+        line += part + list((extra or {}).get(program, []))
+    return line
+
+
+def is_open_mpi():
+    try:
+        text = subprocess.run(["mpirun", "--version"], capture_output=True, text=True, check=False).stdout
+    except FileNotFoundError:
+        from .errors import UserError
+        raise UserError("mpirun not found; run tools/setup, which installs Open MPI") from None
+    return "Open MPI" in text or "OpenRTE" in text
+
+
+Result = collections.namedtuple("Result", "status seconds lines")
+
+
+def execute(line, env, on_line=None, timeout=None, cwd=None):
+    """Runs a job; gives each line of its output to `on_line`. Ctrl-C and the timeout end all its processes.
+
+    Returns status (0: success; 130: interrupted; 124: timeout), wall seconds, and the last lines.
+    """
+    begin = time.monotonic()
+    last = collections.deque(maxlen=2000)
+    job = subprocess.Popen(line, env=env, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                           errors="replace", start_new_session=True, cwd=cwd)
+    expired = []
+    timer = None
+    if timeout:
+        import threading
+        timer = threading.Timer(timeout, lambda: (expired.append(True), end(job)))
+        timer.daemon = True
+        timer.start()
+    try:
+        for text in job.stdout:
+            last.append(text.rstrip("\n"))
+            if on_line:
+                on_line(last[-1])
+        status = job.wait()
+    except KeyboardInterrupt:
+        end(job)
+        status = 130
+    finally:
+        if timer:
+            timer.cancel()
+    if expired:
+        status = 124
+    return Result(status, time.monotonic() - begin, list(last))
+
+
+def end(job):
+    """Ends the job's process group: politely, then for good."""
+    for kind in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
+        try:
+            os.killpg(job.pid, kind)
+            job.wait(timeout=GRACE)
+            return
+        except ProcessLookupError:
+            return
+        except subprocess.TimeoutExpired:
+            continue
+
+
+def own_words(lines):
+    """The programs' own lines: without blank ones and mpirun's boxes between rows of dashes."""
+    kept, in_box = [], False
+    for text in lines:
+        if re.fullmatch(r"-{20,}", text.strip()):
+            in_box = not in_box
+        elif not in_box and text.strip():
+            kept.append(text)
+    return kept

@@ -1,0 +1,44 @@
+"""Where the programs are, and the environment they run in."""
+
+import os
+import pathlib
+import shutil
+
+from .errors import UserError
+from .scene import ROOT
+
+BUILDS = ("release", "portable", "debug")
+
+
+def find(name, bin_dir=None):
+    """Path of a built program: --bin, LITTORAL_BIN, the build folders, then PATH."""
+    named = bin_dir or os.environ.get("LITTORAL_BIN")
+    folders = [pathlib.Path(named)] if named else [ROOT / "build" / build / "bin" for build in BUILDS]
+    for folder in folders:
+        if os.access(folder / name, os.X_OK):
+            return str((folder / name).absolute())
+    on_path = None if named else shutil.which(name)
+    if on_path:
+        return on_path
+    raise UserError(f"{name} not found in {', '.join(map(str, folders))}"
+                    f"{'' if named else ' or on PATH'}. Build it: cmake --preset release && "
+                    f"cmake --build build/release")
+
+
+def environment(threads):
+    """Environment of a job: OpenMP with polite waiting, and Open MPI's consent to run as root."""
+    env = dict(os.environ, OMP_NUM_THREADS=str(threads), OMP_WAIT_POLICY="passive")
+    env.setdefault("OMP_PROC_BIND", "false")
+    if hasattr(os, "geteuid") and os.geteuid() == 0:
+        env.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+    return env
+
+
+def cores():
+    return len(os.sched_getaffinity(0))
+
+
+def default_threads(ranks, concurrent):
+    """Threads a rank. Programs that take turns may both use all cores; concurrent ones share them."""
+    busy = sum(ranks) if concurrent else max(ranks)
+    return max(1, cores() // max(1, busy))

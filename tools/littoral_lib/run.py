@@ -1,0 +1,110 @@
+"""littoral run: one scene, one job, one folder of results."""
+
+import pathlib
+import re
+import shlex
+import sys
+
+from . import collect, launch, programs
+from .console import Console
+from .errors import UserError
+from .scene import Scene
+
+TAIL = 15  # lines of each log shown after a failure
+
+
+def checkpoints(folder):
+    """{window: path} of a program's checkpoints."""
+    found = {}
+    for path in pathlib.Path(folder).glob("checkpoint_*.h5"):
+        match = re.fullmatch(r"checkpoint_0*(\d+)\.h5", path.name)
+        if match:
+            found[int(match.group(1))] = path
+    return found
+
+
+def restart_files(scene, origin, window):
+    """Checkpoint of each program at one common window: a number, or 'latest' that all programs have."""
+    found = {p: checkpoints(pathlib.Path(origin) / p) for p in scene.programs}
+    common = set.intersection(*(set(f) for f in found.values()))
+    if not common:
+        raise UserError(f"{origin}: no window of which {' and '.join(scene.programs)} both have a checkpoint "
+                        "(checkpoint_<window>.h5); set scene.time.checkpoint_interval to write some")
+    if window == "latest":
+        chosen = max(common)
+    elif str(window).isdigit() and int(window) in common:
+        chosen = int(window)
+    else:
+        raise UserError(f"--restart {window}: no common checkpoint of that window in {origin}. "
+                        f"There are: {', '.join(map(str, sorted(common)))}")
+    return {p: found[p][chosen] for p in scene.programs}
+
+
+def run(scene, out, sph_ranks=1, fv_ranks=1, threads=None, restart=None, restart_from=None, extra=None,
+        bin_dir=None, quiet=False, timeout=None):
+    """Runs a scene; returns its summary (status 0: success). All results lie under `out`."""
+    out = pathlib.Path(out).resolve()
+    ranks = {"sph": sph_ranks, "fv": fv_ranks}
+    if min(ranks.values()) < 1:
+        raise UserError("each program needs at least one rank")
+    schedule = ((scene.data.get("coupling") or {}).get("schedule"))
+    used = [ranks[p] for p in scene.programs]
+    threads = threads or programs.default_threads(used, schedule == "concurrent")
+    files = restart_files(scene, restart_from or out, restart) if restart is not None else None
+    line = launch.mpi_line(scene, out, ranks, files, extra, bin_dir)
+    for program in scene.programs:
+        (out / program).mkdir(parents=True, exist_ok=True)
+        (out / program / "summary.json").unlink(missing_ok=True)  # nothing of an earlier run may pass for this one's
+    for name in ("summary.json", "scalars.csv"):
+        (out / name).unlink(missing_ok=True)
+    (out / "command").write_text(shlex.join(line) + "\n", encoding="utf-8")
+    console = Console(scene.programs, out / "console.log", quiet)
+    try:
+        result = launch.execute(line, programs.environment(threads), console.line, timeout)
+    finally:
+        console.close()
+    job = {"status": result.status, "ranks": {p: ranks[p] for p in scene.programs}, "threads": threads,
+           "wall_seconds": round(result.seconds, 3), "command": shlex.join(line),
+           "restart": None if files is None else {p: str(f) for p, f in files.items()}}
+    summary = collect.collect(out, scene, job)
+    summary["lines"] = result.lines
+    return summary
+
+
+def log_tail(out, program, lines=TAIL):
+    """Last lines of a program's log file; None where it wrote none."""
+    logs = sorted(p for p in (pathlib.Path(out) / program).glob("*log*") if p.is_file())
+    if not logs:
+        return None
+    return logs[0].read_text(encoding="utf-8", errors="replace").splitlines()[-lines:]
+
+
+def report_failure(out, summary, stream=sys.stderr):
+    """Why a job ended: its own last words, then the end of each program's log."""
+    reasons = {130: "interrupted", 124: "ran past its time limit"}
+    status = summary["status"]
+    print(f"littoral: the job failed ({reasons.get(status, f'exit status {status}')}) after "
+          f"{summary['wall_seconds']:.1f} s. Everything it printed: {out}/console.log", file=stream)
+    for program in summary["programs"]:
+        tail = log_tail(out, program)
+        print(f"--- last lines of {program}'s log" + ("" if tail else ": it wrote none"), file=stream)
+        for text in tail or []:
+            print(f"    {text}", file=stream)
+    print("--- last lines on the screen", file=stream)
+    for text in launch.own_words(summary["lines"])[-TAIL:]:
+        print(f"    {text}", file=stream)
+
+
+def command(args):
+    scene = Scene(args.scene, args.set, args.solver)
+    out = pathlib.Path(args.out) if args.out else pathlib.Path("out") / scene.name
+    print(f"littoral: {scene.name} with {' and '.join(f'{p}_solver' for p in scene.programs)} -> {out}",
+          file=sys.stderr)
+    summary = run(scene, out, args.sph_ranks, args.fv_ranks, args.threads, args.restart, args.restart_from,
+                  None, args.bin, args.quiet, args.timeout)
+    if summary["status"] != 0:
+        report_failure(out, summary)
+        return summary["status"] if 0 < summary["status"] < 256 else 1
+    print(f"littoral: done in {summary['wall_seconds']:.1f} s; results in {out} (summary.json, scalars.csv, "
+          + ", ".join(f"{p}/" for p in scene.programs) + ")", file=sys.stderr)
+    return 0
