@@ -1,7 +1,6 @@
 #include "boundary/ghosts.hpp"
 
-#include <cmath>
-
+#include "boundary/line.hpp"
 #include "grid/loops.hpp"
 #include "littoral/error.hpp"
 
@@ -65,53 +64,6 @@ std::array<double, D> point_between(const Block<D>& block, std::ptrdiff_t a, std
   return x;
 }
 
-/// Everything the ghost formulas need along one line normal to a face: offsets outward and inward.
-template <int D>
-struct Line {
-  std::size_t inner[3];     // first, second, third inner cell
-  std::size_t ghost[2];     // first, second ghost cell
-  std::size_t face;         // offset whose lower face is the boundary face
-  std::size_t opposite[2];  // cells that are periodic images of the ghosts
-  Line(const Block<D>& block, const Window<D>& w, std::ptrdiff_t first) {
-    const auto d = static_cast<std::size_t>(w.direction);
-    const std::ptrdiff_t s = block.extent.stride[d] * (w.side == 0 ? 1 : -1);
-    const int n = block.extent.n[d];
-    for (int k = 0; k < 3; ++k) inner[k] = static_cast<std::size_t>(first + std::min(k, n - 1) * s);
-    for (int k = 0; k < 2; ++k) {
-      ghost[k] = static_cast<std::size_t>(first - (k + 1) * s);
-      opposite[k] = static_cast<std::size_t>(first + (n - 1 - std::min(k, n - 1)) * s);
-    }
-    face = static_cast<std::size_t>(w.side == 0 ? first : first - s);
-  }
-};
-
-/// Unit normal of the boundary face, into the block.
-template <int D>
-std::array<double, D> inward(const Block<D>& block, const Window<D>& w, std::size_t face) {
-  std::array<double, D> n;
-  double measure = 0.0;
-  for (std::size_t k = 0; k < D; ++k) {
-    n[k] = block.area[static_cast<std::size_t>(w.direction)][k][face];
-    measure += n[k] * n[k];
-  }
-  measure = (w.side == 0 ? 1.0 : -1.0) / std::sqrt(measure);
-  for (double& component : n) component *= measure;
-  return n;
-}
-
-/// Distances of the first two inner centres from the face, along its normal.
-template <int D>
-void normal_distances(const Block<D>& block, const Line<D>& line, const std::array<double, D>& n, double& d0,
-                      double& d1) {
-  d0 = d1 = 0.0;
-  for (std::size_t k = 0; k < D; ++k) {
-    const auto& x = block.centre[k];
-    const double face = 0.5 * (x[line.inner[0]] + x[line.ghost[0]]);
-    d0 += n[k] * (x[line.inner[0]] - face);
-    d1 += n[k] * (x[line.inner[1]] - face);
-  }
-}
-
 }  // namespace
 
 template <int D>
@@ -138,8 +90,8 @@ void evaluate_windows(Block<D>& block, const Equations<D>& equations, double t) 
           for (std::size_t k = 0; k < D; ++k)
             w.given_u[layer][k].push_back(w.velocity[k] ? w.velocity[k](in_space<D>(x), t) : 0.0);
         if (uses_p)
-          w.given_p[layer].push_back(w.pressure ? w.pressure(in_space<D>(x), t)
-                                                : equations.fluid.hydrostatic(x));
+          w.given_p[layer].push_back(
+              w.pressure ? w.pressure(in_space<D>(x), t) - equations.fluid.hydrostatic(x) : 0.0);
       });
     }
   }
@@ -158,11 +110,11 @@ void fill_window(const Block<D>& block, const Window<D>& w, State<D>& q) {
     const Line<D> line(block, w, block.extent.at(index));
     const std::size_t i0 = line.inner[0], i1 = line.inner[1], g0 = line.ghost[0], g1 = line.ghost[1];
     const double p0 = p[i0] - reference[i0], p1 = p[i1] - reference[i1];
-    const std::array<double, D> n = inward(block, w, line.face);
-    double d0, d1;
-    normal_distances<D>(block, line, n, d0, d1);
-    const bool single = i0 == i1;  // one cell across: nothing to extrapolate from
-    const double slope = single ? 0.0 : (p0 - p1) / (d1 - d0);
+    const FaceFrame<D> frame(block, w, line);
+    const auto& n = frame.normal;
+    const double d0 = frame.d0, d1 = frame.d1;
+    const bool single = line.single();
+    const double slope = frame.outward_slope(p0, p1);
     switch (w.condition) {
       case Condition::wall:
       case Condition::inflow: {
@@ -182,7 +134,7 @@ void fill_window(const Block<D>& block, const Window<D>& w, State<D>& q) {
       }
       case Condition::slip:
       case Condition::symmetry: {
-        for (int layer = 0; layer < 2; ++layer) {
+        for (std::size_t layer = 0; layer < 2; ++layer) {
           const std::size_t i = line.inner[layer], g = line.ghost[layer];
           double u_n = 0.0;
           for (std::size_t k = 0; k < D; ++k) u_n += n[k] * q.u[k][i];
@@ -199,8 +151,7 @@ void fill_window(const Block<D>& block, const Window<D>& w, State<D>& q) {
           u[g0] = u[i0];
           u[g1] = u[i0];
         }
-        // the reference at the face: mean of both sides, which is exact where P is linear
-        const double p_face = w.given_p[0][flat] - 0.5 * (reference[i0] + reference[g0]);
+        const double p_face = w.given_p[0][flat];
         p[g0] = reference[g0] + 2.0 * p_face - p0;
         p[g1] = reference[g1] + 2.0 * p_face - p1;
         break;
@@ -208,18 +159,18 @@ void fill_window(const Block<D>& block, const Window<D>& w, State<D>& q) {
       case Condition::far_field:
         for (const std::size_t g : {g0, g1}) {
           for (std::size_t k = 0; k < D; ++k) q.u[k][g] = w.given_u[0][k][flat];
-          p[g] = reference[g] + w.given_p[0][flat] - 0.5 * (reference[i0] + reference[g0]);
+          p[g] = reference[g] + w.given_p[0][flat];
         }
         break;
       case Condition::state:
         for (std::size_t layer = 0; layer < 2; ++layer) {
           const std::size_t g = line.ghost[layer];
           for (std::size_t k = 0; k < D; ++k) q.u[k][g] = w.given_u[layer][k][flat];
-          p[g] = w.given_p[layer][flat];
+          p[g] = reference[g] + w.given_p[layer][flat];
         }
         break;
       case Condition::periodic:
-        for (int layer = 0; layer < 2; ++layer) {
+        for (std::size_t layer = 0; layer < 2; ++layer) {
           const std::size_t g = line.ghost[layer], o = line.opposite[layer];
           for (std::size_t k = 0; k < D; ++k) q.u[k][g] = q.u[k][o];
           p[g] = reference[g] + p[o] - reference[o];

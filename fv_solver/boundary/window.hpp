@@ -49,7 +49,7 @@ struct Window {
 
   /// Given values at the time last set by evaluate_windows, over the window grown into the ghosts of lower
   /// directions, per layer (0: at the face, or the first ghost layer for `state`; 1: second ghost layer).
-  std::array<std::vector<double>, 2> given_p;                 // [Pa]
+  std::array<std::vector<double>, 2> given_p;                 // [Pa] relative to the hydrostatic reference
   std::array<std::array<std::vector<double>, D>, 2> given_u;  // [m/s]
 };
 

@@ -32,13 +32,13 @@ struct Forcing {
 };
 
 /// The old time levels and sources of one step, per volume: the time term of a row is
-/// V (a0 q + history), q = rho or rho u. Steady: zero (or minus the sources).
+/// V (a0 q + history), q = (p - P)/c^2 (the part of rho that changes) or rho u. Steady: minus the sources.
 template <int D>
 using History = Residual<D>;  // [kg/(m^3 s)], [N/m^3]
 
 /// The discrete equations (4)-(5) of one fluid: what every block solves. A row's residual is
 ///
-///   mass      V (a0 rho + history) + sum_f m_f                       [+ V K/delta psi (p - p*)]
+///   mass      V (a0 (p - P)/c^2 + history) + sum_f m_f                       [+ V K/delta psi (p - p*)]
 ///   momentum  V (a0 rho u + history) + sum_f (m_f u_f + p_f A - T A) - V (rho - rho(P)) g
 ///                                                                    [+ V K/delta rho0 (u - u*)]
 /// with pressures relative to the hydrostatic reference P, and at a face with area vector A, S = |A|,
@@ -57,9 +57,12 @@ struct Equations {
 
   /// in   q with ghosts current (fill_ghosts), block metrics, windows evaluated
   /// out  r (resized if needed), inner cells
-  /// comm local; OpenMP inside
+  /// comm local; OpenMP inside; not to be called for two blocks at the same time (workspace)
   void residual(const Block<D>& block, const State<D>& q, const BackwardDifference& time,
                 const History<D>& history, const Forcing<D>& forcing, Residual<D>& r) const;
+
+ private:
+  mutable Field relative_pressure_;  // [Pa] p - P, of the block last evaluated
 };
 
 }  // namespace littoral::fv

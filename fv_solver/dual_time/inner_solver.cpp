@@ -1,0 +1,50 @@
+#include "dual_time/inner_solver.hpp"
+
+#include <cmath>
+
+#include "boundary/ghosts.hpp"
+#include "grid/loops.hpp"
+
+namespace littoral::fv {
+
+template <int D>
+void StepProblem<D>::evaluate(std::vector<State<D>>& q, std::vector<Residual<D>>& r) const {
+  r.resize(blocks.size());
+  for (std::size_t b = 0; b < blocks.size(); ++b) fill_ghosts(blocks[b], q[b]);
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    equations.residual(blocks[b], q[b], time, history[b], forcing[b], r[b]);
+}
+
+template <int D>
+double StepProblem<D>::norm(const std::vector<Residual<D>>& r) const {
+  const double rho0 = equations.fluid.density;
+  double sum = 0.0, volume = 0.0;
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    const Block<D>& block = blocks[b];
+    std::array<int, D> lower{}, upper = block.extent.n;
+    upper[0] = 1;
+    for_each_index<D>(lower, upper, [&](const std::array<int, D>& index) {
+      const auto row = static_cast<std::size_t>(block.extent.at(index));
+      for (std::size_t c = row; c < row + static_cast<std::size_t>(block.extent.n[0]); ++c) {
+        if (block.solved[c] == 0.0) continue;
+        const double v = block.volume[c];
+        const double h = D == 2 ? std::sqrt(v) : std::cbrt(v);
+        const double per_momentum = 1.0 / (rho0 * v * (time.a0 + equations.speeds.c0 / h));
+        const double e_p = r[b].mass[c] * h / (rho0 * v);
+        double e = e_p * e_p;
+        for (std::size_t k = 0; k < D; ++k) {
+          const double e_u = r[b].momentum[k][c] * per_momentum;
+          e += e_u * e_u;
+        }
+        sum += v * e;
+        volume += v;
+      }
+    });
+  }
+  return volume > 0.0 ? std::sqrt(sum / volume) : 0.0;
+}
+
+template struct StepProblem<2>;
+template struct StepProblem<3>;
+
+}  // namespace littoral::fv

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <vector>
+
+#include "grid/block.hpp"
+#include "physics/equations.hpp"
+
+namespace littoral::fv {
+
+/// The nonlinear equations of one time step, on all blocks: find q with residual 0.
+template <int D>
+struct StepProblem {
+  std::vector<Block<D>>& blocks;
+  const Equations<D>& equations;
+  BackwardDifference time;
+  const std::vector<History<D>>& history;
+  const std::vector<Forcing<D>>& forcing;
+
+  /// Refreshes the ghosts of q, then evaluates all residuals.
+  void evaluate(std::vector<State<D>>& q, std::vector<Residual<D>>& r) const;
+  /// Size of a residual as a velocity: rms over the solved cells, weighted with volume, of
+  /// R_u/(rho0 V) / (a0 + c0/h) and h R_p/(rho0 V), h = V^(1/D)  [m/s]. NaN if any is.
+  double norm(const std::vector<Residual<D>>& r) const;
+};
+
+/// When the inner iteration of a step may end.
+struct InnerTolerance {
+  double drop = 1e-3;   // [-] of the norm from the start of the step
+  double floor = 0.0;   // [m/s] norm below which nothing is asked for
+  int max_cycles = 50;  // [-]
+  bool met(double norm, double first) const { return norm <= drop * first || norm <= floor; }
+};
+
+struct InnerReport {
+  int cycles = 0;
+  bool converged = false;
+  std::vector<double> norms;  // [m/s] before the first cycle, then after each
+  double drop() const { return norms.empty() || norms.front() == 0.0 ? 0.0 : norms.back() / norms.front(); }
+};
+
+/// A way to solve a step: plain dual time (6), or the linear multigrid correction.
+template <int D>
+class InnerSolver {
+ public:
+  virtual ~InnerSolver() = default;
+  /// in/out q: the start, then the solution; ghosts current on return. Cells that are not solved keep their
+  /// values. comm local
+  virtual InnerReport solve(const StepProblem<D>& problem, const InnerTolerance& tolerance,
+                            std::vector<State<D>>& q) = 0;
+};
+
+}  // namespace littoral::fv

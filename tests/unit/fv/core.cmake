@@ -1,0 +1,5 @@
+littoral_gtest(
+  NAME fv_core_test
+  PREFIX fv
+  SOURCES metrics_test.cpp residual_test.cpp
+  LIBS fv_core)
