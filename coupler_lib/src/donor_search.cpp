@@ -6,6 +6,7 @@
 
 #include "littoral/error.hpp"
 #include "patch_search.hpp"
+#include "validate.hpp"
 
 namespace littoral::coupler {
 
@@ -119,8 +120,8 @@ DonorState interpolate(const DonorValues& values, const Donor& donor, double tim
   const double slack = 1e-9 * (values.horizon_end - values.horizon_begin) +
                        4 * std::numeric_limits<double>::epsilon() * std::abs(time);
   if (!(time >= values.horizon_begin - slack && time <= values.horizon_end + slack))
-    throw CouplingError("donors asked for t = " + std::to_string(time) + " s, but they hold from " +
-                        std::to_string(values.horizon_begin) + " to " + std::to_string(values.horizon_end) +
+    throw CouplingError("donors asked for t = " + text_of(time) + " s, but they hold from " +
+                        text_of(values.horizon_begin) + " to " + text_of(values.horizon_end) +
                         " s; a longer substep than agreed?");
   const double dt = time - values.time;
   const bool with_phi = !values.phi.empty();

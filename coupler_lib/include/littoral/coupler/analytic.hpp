@@ -1,5 +1,7 @@
 #pragma once
 
+#include <mpi.h>
+
 #include <functional>
 #include <memory>
 
@@ -24,11 +26,14 @@ Flow taylor_vortex(double density, double speed, double wavelength, double visco
 /// Inviscid standing wave on depth H to first order, eta = a cos(kx) sin(wt) (flat at t = 0).
 Flow standing_wave(double density, double gravity, double depth, double wavenumber, double amplitude);
 
-/// A grid that knows the flow: donors on a uniform lattice of centres of spacing h, derivatives exact
-/// (central differences in time). Lets sph_solver run its whole coupling path in one process.
+/// A grid that knows the flow: donors on a uniform lattice of centres of spacing h, targets in the two
+/// outermost layers of that lattice inside what each rank covers. Derivatives: where the schedule
+/// interpolates towards t^n+1 the secant, else those at t^n. Lets sph_solver run its whole coupling path in
+/// one process or, given its communicator, in several.
 std::unique_ptr<FvPartner> analytic_fv_partner(const Flow& flow, const RunPlan& plan, double spacing,
-                                               int dimension);
-/// Particles that know the flow: samples are exact.
-std::unique_ptr<SphPartner> analytic_sph_partner(const Flow& flow, const RunPlan& plan);
+                                               int dimension, MPI_Comm program = MPI_COMM_SELF);
+/// Particles that know the flow: samples are exact; dry where phi > 0.
+std::unique_ptr<SphPartner> analytic_sph_partner(const Flow& flow, const RunPlan& plan,
+                                                 MPI_Comm program = MPI_COMM_SELF);
 
 }  // namespace littoral::coupler
