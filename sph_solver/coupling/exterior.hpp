@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "littoral/coupler/donor_search.hpp"
+#include "littoral/coupler/fields.hpp"
+
+namespace littoral::sph {
+
+/// FV's solution around the SPH region, as the layers and the face elements use it: a state at a point and a
+/// time. Absent where FV has no cell with a state near (in the air).
+class Exterior {
+ public:
+  virtual ~Exterior() = default;
+  /// hint: memory of an earlier search near x, -1 at first; updated. thread-safe
+  /// throws CouplingError if the time lies outside the horizon of the values
+  virtual std::optional<coupler::DonorState> at(const coupler::Vec3& x, double time,
+                                                std::int64_t& hint) const = 0;
+  virtual bool with_phi() const = 0;
+};
+
+/// The exterior out of donor cells: trilinear in space, linear in time (24).
+class DonorField final : public Exterior {
+ public:
+  explicit DonorField(int dimension) : dimension_(dimension) {}
+  /// A new geometry (epoch): the search is set up anew and every hint is void.
+  void set_geometry(const coupler::DonorGeometry& geometry);
+  coupler::DonorValues& values() { return values_; }
+  const coupler::DonorValues& values() const { return values_; }
+
+  std::optional<coupler::DonorState> at(const coupler::Vec3& x, double time,
+                                        std::int64_t& hint) const override;
+  bool with_phi() const override { return !values_.phi.empty(); }
+
+ private:
+  int dimension_;
+  std::unique_ptr<coupler::DonorSearch> search_;
+  coupler::DonorValues values_;
+};
+
+}  // namespace littoral::sph

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "coupling/compensated.hpp"
+#include "coupling/exterior.hpp"
+#include "coupling/zones.hpp"
+#include "physics/eos.hpp"
+
+namespace littoral::sph {
+
+/// A piece of an outer face, of about dx^(D-1).
+template <int D>
+struct FaceElement {
+  Point<D> centre{};     // [m]
+  Point<D> half{};       // [m] half its extent in each direction, 0 in the normal one
+  std::size_t axis = 0;  // direction of the normal
+  double inward = 1.0;   // +1: the inward normal points to larger coordinates
+  double area = 0.0;     // [m^(D-1)]
+  std::size_t box = 0;   // region box it bounds
+};
+
+/// The outer faces of the region, split into elements, and the mass each carries: integrated by (18), not yet
+/// injected as particles.
+template <int D>
+class FaceElements {
+ public:
+  FaceElements() = default;
+  FaceElements(const Layers<D>& layers, double spacing);
+
+  std::size_t size() const { return elements_.size(); }
+  const FaceElement<D>& operator[](std::size_t e) const { return elements_[e]; }
+
+  /// Adds the mass that enters in [time, time + dt]: rho(p) u.n S dt with FV's state at the centre at half
+  /// time (18), second order in time; only the wet part of an element that FV's surface cuts counts (19).
+  /// comm: local. throws CouplingError: no donors at an element in a scene without free surface
+  void integrate(const Exterior& fv, const LinearEos& eos, double time, double dt);
+
+  double mass(std::size_t e) const { return mass_[e].value(); }   // [kg]
+  void credit(std::size_t e, double mass) { mass_[e] += mass; }   // [kg]
+  double inflow_speed(std::size_t e) const { return speed_[e]; }  // [m/s] u.n of the last integration
+  std::int64_t& hint(std::size_t e) const { return hint_[e]; }
+  double total_mass() const;                     // [kg] on all elements
+  double flux() const { return flux_.value(); }  // [kg] through all elements since the start
+
+  /// Element of the outer face through which a point outside has left; size() if it is not outside.
+  std::size_t crossed(const Point<D>& x) const;
+
+  void forget_hints() { hint_.assign(size(), -1); }
+
+  /// The integrals, as they are written and restored: mass sums, their carries, then the flux.
+  std::vector<double> pack() const;
+  void unpack(const std::vector<double>& packed);  ///< throws IoError if the count is another
+
+ private:
+  struct Face {
+    std::size_t box, axis, side, first;  // index of its first element
+    std::array<std::size_t, D> n;        // elements per direction, 1 in the normal one
+  };
+  double wet_part(const Exterior& fv, std::size_t e, double phi_centre, double time) const;
+
+  std::vector<RegionBox<D>> boxes_;
+  std::vector<Face> faces_;
+  std::vector<FaceElement<D>> elements_;
+  std::vector<Compensated> mass_;
+  std::vector<double> speed_;
+  mutable std::vector<std::int64_t> hint_;
+  Compensated flux_;
+};
+
+}  // namespace littoral::sph

@@ -1,0 +1,86 @@
+#include "coupling/injection_place.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace littoral::sph {
+
+namespace {
+
+/// A place nearer than this to a particle is occupied [spacing].
+constexpr double k_free = 0.75;
+
+template <int D>
+bool in_water(const Point<D>& x, const Exterior& fv, double time, std::int64_t& hint) {
+  if (!fv.with_phi()) return true;
+  const auto state = fv.at(to_vec3<D>(x), time, hint);
+  return state && state->phi < 0.0;
+}
+
+}  // namespace
+
+template <int D>
+void PresentParticles<D>::sort() {
+  n_sorted_ = x_[0].size();
+  if (n_sorted_ > 0) grid_.bin(x_, n_sorted_, reach_);
+}
+
+template <int D>
+double PresentParticles<D>::room(const Point<D>& x) const {
+  double s_min = reach_ * reach_;
+  const auto look = [&](std::size_t k) {
+    double s = 0.0;
+    for (std::size_t d = 0; d < D; ++d) s += (x_[d][k] - x[d]) * (x_[d][k] - x[d]);
+    s_min = std::min(s_min, s);
+  };
+  if (n_sorted_ > 0)
+    grid_.for_each_range(x, reach_, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) look(static_cast<std::size_t>(grid_.order()[k]));
+    });
+  for (std::size_t k = n_sorted_; k < x_[0].size(); ++k) look(k);
+  return std::sqrt(s_min);
+}
+
+template <int D>
+Point<D> injection_place(const FaceElement<D>& element, double excess_depth, double spacing,
+                         const PresentParticles<D>& present, const Exterior& fv, double time,
+                         std::int64_t& hint) {
+  Point<D> centre = element.centre;
+  centre[element.axis] += element.inward * (0.5 * spacing + std::clamp(excess_depth, 0.0, 0.5 * spacing));
+  const bool centre_wet = in_water<D>(centre, fv, time, hint);
+  if (centre_wet && present.room(centre) >= k_free * spacing) return centre;
+
+  // Depths from a quarter to one and a quarter spacing, and half an element to either side.
+  constexpr double depths[] = {0.5, 0.75, 1.0, 0.25, 1.25};
+  constexpr int sides = D == 2 ? 3 : 9;
+  constexpr double offsets[] = {0.0, -0.5, 0.5};
+  Point<D> best = centre;
+  double best_room = centre_wet ? present.room(centre) : -1.0;
+  for (double depth : depths)
+    for (int k = 0; k < sides; ++k) {
+      Point<D> x = element.centre;
+      x[element.axis] += element.inward * depth * spacing;
+      int rest = k;
+      for (std::size_t d = 0; d < D; ++d) {
+        if (d == element.axis) continue;
+        x[d] += 2.0 * offsets[rest % 3] * element.half[d];
+        rest /= 3;
+      }
+      if (!in_water<D>(x, fv, time, hint)) continue;
+      const double r = present.room(x);
+      if (r > best_room * (1.0 + 1e-12)) {
+        best_room = r;
+        best = x;
+      }
+    }
+  return best;
+}
+
+template class PresentParticles<2>;
+template class PresentParticles<3>;
+template Point<2> injection_place<2>(const FaceElement<2>&, double, double, const PresentParticles<2>&,
+                                     const Exterior&, double, std::int64_t&);
+template Point<3> injection_place<3>(const FaceElement<3>&, double, double, const PresentParticles<3>&,
+                                     const Exterior&, double, std::int64_t&);
+
+}  // namespace littoral::sph

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "coupling/exterior.hpp"
+#include "coupling/face_elements.hpp"
+#include "neighbors/cell_grid.hpp"
+
+namespace littoral::sph {
+
+/// Positions near the outer faces: those of the particles, then those of the ones just born.
+template <int D>
+class PresentParticles {
+ public:
+  explicit PresentParticles(double reach) : reach_(reach) {}
+  void add(const Point<D>& x) {
+    for (std::size_t d = 0; d < D; ++d) x_[d].push_back(x[d]);
+  }
+  /// Closes the first group; what is added later is searched one by one.
+  void sort();
+  /// Distance from x to the nearest, `reach` if none is nearer.
+  double room(const Point<D>& x) const;
+
+ private:
+  double reach_;
+  std::array<std::vector<double>, D> x_;
+  CellGrid<D> grid_;
+  std::size_t n_sorted_ = 0;
+};
+
+/// Where the particle of an element appears: in front of the element's centre, half a spacing inside, plus
+/// the depth that the mass beyond m0 has already travelled; so a steady inflow makes rows of even spacing
+/// although particles appear only at the ends of steps. If a particle is there already, the emptiest of a few
+/// places around. Places above FV's surface are avoided.
+template <int D>
+Point<D> injection_place(const FaceElement<D>& element, double excess_depth, double spacing,
+                         const PresentParticles<D>& present, const Exterior& fv, double time,
+                         std::int64_t& hint);
+
+}  // namespace littoral::sph

@@ -1,0 +1,229 @@
+#include "coupling/particle_exchange.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "coupling/injection_place.hpp"
+#include "littoral/error.hpp"
+
+namespace littoral::sph {
+
+namespace {
+
+double power(double base, int exponent) {
+  double product = 1.0;
+  for (int k = 0; k < exponent; ++k) product *= base;
+  return product;
+}
+
+/// Particles within `reach` of an open outer face, or beyond it.
+template <int D>
+std::vector<std::size_t> near_faces(const Particles<D>& particles, const Layers<D>& layers, double reach) {
+  std::vector<std::size_t> found;
+  const double from = layers.blending_width() + layers.driven_width() - reach;
+  for (std::size_t i = 0; i < particles.n_owned; ++i)
+    if (layers.excess(at<D>(particles.x, i)) > from) found.push_back(i);
+  return found;
+}
+
+}  // namespace
+
+template <int D>
+ParticleExchange<D>::ParticleExchange(const Layers<D>& layers, const LinearEos& eos, double spacing,
+                                      Removal removal)
+    : layers_(layers),
+      eos_(eos),
+      spacing_(spacing),
+      m0_(eos.density(eos.p0) * power(spacing, D)),
+      removal_(removal),
+      elements_(layers, spacing) {}
+
+template <int D>
+void ParticleExchange<D>::start(const Particles<D>& particles) {
+  start_mass_ = Compensated();
+  for (std::size_t i = 0; i < particles.n_owned; ++i) start_mass_ += particles.m[i];
+}
+
+template <int D>
+void ParticleExchange<D>::lose(double mass) {
+  lost_ += mass;
+  ++counts_.lost;
+}
+
+template <int D>
+void ParticleExchange<D>::doom(const Particles<D>& particles, std::size_t i, std::size_t element) {
+  elements_.credit(element, particles.m[i]);
+  removed_ += particles.m[i];
+  doomed_[i] = 1;
+  ++n_doomed_;
+}
+
+template <int D>
+void ParticleExchange<D>::find_crossed(const Particles<D>& particles, double margin) {
+  const double end = layers_.blending_width() + layers_.driven_width() + margin;
+  for (std::size_t i = 0; i < particles.n_owned; ++i) {
+    const Point<D> x = at<D>(particles.x, i);
+    if (!(layers_.excess(x) > end)) continue;
+    const std::size_t element = elements_.crossed(x);
+    if (element == elements_.size()) continue;
+    doom(particles, i, element);
+    ++counts_.removed_crossing;
+  }
+}
+
+template <int D>
+void ParticleExchange<D>::find_nearest(const Particles<D>& particles) {
+  std::vector<std::size_t> near;  // found once, when an element asks
+  for (std::size_t e = 0; e < elements_.size(); ++e) {
+    while (elements_.mass(e) < -m0_) {
+      // what is further away belongs to other elements: the debt waits until a particle comes by
+      const double reach = 2.0 * spacing_;
+      if (near.empty()) near = near_faces(particles, layers_, reach);
+      double s_min = reach * reach;
+      std::size_t nearest = particles.n_owned;
+      for (std::size_t i : near) {
+        double s = 0.0;
+        for (std::size_t d = 0; d < D; ++d) {
+          const double r = particles.x[d][i] - elements_[e].centre[d];
+          s += r * r;
+        }
+        if (doomed_[i] == 0 && s < s_min) {
+          s_min = s;
+          nearest = i;
+        }
+      }
+      if (nearest == particles.n_owned) break;
+      doom(particles, nearest, e);
+      ++counts_.removed_nearest;
+    }
+  }
+}
+
+template <int D>
+bool ParticleExchange<D>::inject(Particles<D>& particles, const Exterior& fv, double time) {
+  std::vector<std::size_t> due;
+  for (std::size_t e = 0; e < elements_.size(); ++e)
+    if (elements_.mass(e) >= m0_) due.push_back(e);
+  if (due.empty()) return false;
+  const std::int64_t before = counts_.injected;
+
+  PresentParticles<D> present(2.0 * spacing_);
+  for (std::size_t i : near_faces(particles, layers_, 4.0 * spacing_)) present.add(at<D>(particles.x, i));
+  present.sort();
+  for (std::size_t e : due) {
+    while (elements_.mass(e) >= m0_) {
+      // the mass beyond m0 entered after the particle was due: it has travelled so far since
+      const double excess_depth = (elements_.mass(e) - m0_) / (eos_.density(eos_.p0) * elements_[e].area);
+      NewParticle<D> particle;
+      particle.x =
+          injection_place<D>(elements_[e], excess_depth, spacing_, present, fv, time, elements_.hint(e));
+      const auto state = fv.at(to_vec3<D>(particle.x), time, elements_.hint(e));
+      if (!state) {
+        if (fv.with_phi()) break;  // FV's water is not there yet: the mass waits on the element
+        const auto x = to_vec3<D>(particle.x);
+        std::ostringstream text;
+        text << "t = " << time << " s: no donor cells where a particle must be injected, (" << x[0] << ", "
+             << x[1] << ", " << x[2] << ").";
+        throw CouplingError(text.str());
+      }
+      for (std::size_t d = 0; d < D; ++d) particle.u[d] = state->u[space_axis<D>(d)];
+      particle.p = state->p;
+      particle.m = m0_;
+      particle.V = m0_ / eos_.density(state->p);
+      particle.zone = layers_.zone(layers_.excess(particle.x));
+      particles.append(particle);
+      particles.rho.back() = eos_.density(state->p);
+      present.add(particle.x);
+      elements_.credit(e, -m0_);
+      injected_ += m0_;
+      ++counts_.injected;
+    }
+  }
+  return counts_.injected > before;
+}
+
+template <int D>
+bool ParticleExchange<D>::step(Particles<D>& particles, const Exterior& fv, double time, double dt) {
+  if (elements_.size() == 0) return false;
+  elements_.integrate(fv, eos_, time, dt);
+  doomed_.assign(particles.n_owned, 0);
+  n_doomed_ = 0;
+  find_crossed(particles, removal_ == Removal::crossing ? 0.0 : spacing_);
+  if (removal_ == Removal::nearest) find_nearest(particles);
+  if (n_doomed_ > 0) particles.remove(doomed_);
+  return inject(particles, fv, time + dt) || n_doomed_ > 0;
+}
+
+template <int D>
+coupler::Ledger ParticleExchange<D>::ledger(const Particles<D>& particles) const {
+  Compensated inside;
+  for (std::size_t i = 0; i < particles.n_owned; ++i) inside += particles.m[i];
+  coupler::Ledger ledger;
+  ledger.mass_inside = inside.value();
+  ledger.mass_on_faces = elements_.total_mass();
+  ledger.mass_injected = injected_.value();
+  ledger.mass_removed = removed_.value();
+  ledger.mass_flux = elements_.flux();
+  ledger.n_injected = static_cast<double>(counts_.injected);
+  ledger.n_removed = static_cast<double>(counts_.removed_crossing + counts_.removed_nearest);
+  Compensated defect = inside;
+  defect += ledger.mass_on_faces;
+  defect += lost_;
+  defect -= start_mass_.value();
+  defect -= ledger.mass_flux;
+  ledger.defect = defect.value();
+  return ledger;
+}
+
+template <int D>
+std::vector<double> ParticleExchange<D>::pack() const {
+  std::vector<double> packed = elements_.pack();
+  for (const Compensated* sum : {&start_mass_, &injected_, &removed_, &lost_}) {
+    packed.push_back(sum->sum());
+    packed.push_back(sum->carry());
+  }
+  return packed;
+}
+
+template <int D>
+std::vector<std::int64_t> ParticleExchange<D>::pack_counts() const {
+  return {counts_.injected, counts_.removed_crossing, counts_.removed_nearest, counts_.lost};
+}
+
+template <int D>
+void ParticleExchange<D>::unpack(const std::vector<double>& packed, const std::vector<std::int64_t>& counts) {
+  constexpr std::size_t tail = 8;
+  if (packed.size() < tail || counts.size() != 4)
+    throw IoError("particle exchange: the record is too short.");
+  const std::size_t first = packed.size() - tail;
+  elements_.unpack(std::vector<double>(packed.begin(), packed.begin() + static_cast<std::ptrdiff_t>(first)));
+  std::size_t k = first;
+  for (Compensated* sum : {&start_mass_, &injected_, &removed_, &lost_}) {
+    *sum = Compensated(packed[k], packed[k + 1]);
+    k += 2;
+  }
+  counts_ = {counts[0], counts[1], counts[2], counts[3]};
+}
+
+void check_ledger(const coupler::Ledger& total, double time) {
+  // Each particle's mass is rounded once, each element's sum is compensated: 1e-12 of the mass at stake is a
+  // thousand times what is measured, and a millionth of a particle in a region of a million.
+  const double stake = std::fabs(total.mass_inside) + std::fabs(total.mass_on_faces) +
+                       std::fabs(total.mass_injected) + std::fabs(total.mass_removed) +
+                       std::fabs(total.mass_flux);
+  if (std::fabs(total.defect) <= 1e-12 * stake) return;
+  std::ostringstream text;
+  text.precision(17);
+  text << "t = " << time << " s: the mass ledger of the SPH region does not close: defect " << total.defect
+       << " kg; in particles " << total.mass_inside << ", on the faces " << total.mass_on_faces
+       << ", flux since start " << total.mass_flux << ", injected " << total.mass_injected << ", removed "
+       << total.mass_removed << ". Particles were lost or masses changed outside the exchange.";
+  throw StabilityError(text.str());
+}
+
+template class ParticleExchange<2>;
+template class ParticleExchange<3>;
+
+}  // namespace littoral::sph

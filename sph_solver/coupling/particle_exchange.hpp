@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "coupling/compensated.hpp"
+#include "coupling/exterior.hpp"
+#include "coupling/face_elements.hpp"
+#include "coupling/zones.hpp"
+#include "littoral/coupler/fields.hpp"
+#include "particles/particles.hpp"
+#include "physics/eos.hpp"
+
+namespace littoral::sph {
+
+/// When a particle leaves the region.
+///   crossing  a particle beyond the outer face goes, its mass is credited to the element it crossed
+///   nearest   the paper: below -m0 on an element, the particle nearest to it goes; one that has strayed more
+///             than a spacing beyond the face goes as under `crossing`
+enum class Removal { crossing, nearest };
+
+/// Particles that appeared or vanished, by cause.
+struct ExchangeCounts {
+  std::int64_t injected = 0;
+  std::int64_t removed_crossing = 0;
+  std::int64_t removed_nearest = 0;
+  std::int64_t lost = 0;  ///< taken out by others than the exchange (reported with lose())
+};
+
+/// Injection and removal of particles at the outer faces, and the ledger of mass: what is in particles and on
+/// the face elements is what was there at the start and what flowed in since.
+/// Copyable: a copy is the complete state, to repeat a window from.
+template <int D>
+class ParticleExchange {
+ public:
+  ParticleExchange() = default;
+  /// m0 = rho0 dx^D is the mass of an injected particle.
+  ParticleExchange(const Layers<D>& layers, const LinearEos& eos, double spacing, Removal removal);
+
+  /// Takes the present particles as the start of the ledger.
+  void start(const Particles<D>& particles);
+
+  /// After a step from `time` to `time + dt`, positions of the end: integrates the face elements over the
+  /// step (18), (19), removes, injects at m0. Ghosts are dropped if particles changed. returns  true if
+  /// particles appeared or vanished: indices and neighbour lists are void then comm: local. throws
+  /// CouplingError: no donors where a particle has to appear
+  bool step(Particles<D>& particles, const Exterior& fv, double time, double dt);
+
+  /// A particle that someone else takes out: its mass is part of the ledger.
+  void lose(double mass);
+
+  /// This rank's ledger. throws nothing
+  coupler::Ledger ledger(const Particles<D>& particles) const;
+  const ExchangeCounts& counts() const { return counts_; }
+  const FaceElements<D>& elements() const { return elements_; }
+  FaceElements<D>& elements() { return elements_; }
+
+  std::vector<double> pack() const;
+  std::vector<std::int64_t> pack_counts() const;
+  void unpack(const std::vector<double>& packed, const std::vector<std::int64_t>& counts);
+
+ private:
+  void doom(const Particles<D>& particles, std::size_t i, std::size_t element);
+  void find_crossed(const Particles<D>& particles, double margin);
+  void find_nearest(const Particles<D>& particles);
+  bool inject(Particles<D>& particles, const Exterior& fv, double time);
+
+  Layers<D> layers_;
+  LinearEos eos_;
+  double spacing_ = 0.0;
+  double m0_ = 0.0;
+  Removal removal_ = Removal::crossing;
+  FaceElements<D> elements_;
+  Compensated start_mass_, injected_, removed_, lost_;
+  ExchangeCounts counts_;
+  std::vector<char> doomed_;  // of the step at hand
+  std::size_t n_doomed_ = 0;
+};
+
+/// throws StabilityError if the summed ledger's defect exceeds round-off of the mass it moved.
+void check_ledger(const coupler::Ledger& total, double time);
+
+}  // namespace littoral::sph

@@ -1,0 +1,138 @@
+#include "coupling/samples.hpp"
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "neighbors/cell_grid.hpp"
+#include "physics/kernel.hpp"
+
+namespace littoral::sph {
+
+namespace {
+
+/// Less than the corner of a body of water has [-].
+constexpr double k_least_coverage = 0.25;
+
+template <int D>
+constexpr std::size_t k_basis = D + 1;
+
+template <int D>
+using Moments = std::array<std::array<double, k_basis<D>>, k_basis<D>>;
+
+/// Solves A c = (1, 0, ...) by Cholesky; false where A is singular to working use: a pivot that has lost all
+/// but 1e-8 of its diagonal comes from points on a line (in 3-D: a plane).
+template <int D>
+bool first_column_of_inverse(Moments<D> A, std::array<double, k_basis<D>>& c) {
+  constexpr std::size_t n = k_basis<D>;
+  for (std::size_t j = 0; j < n; ++j) {
+    const double diagonal = A[j][j];
+    for (std::size_t k = 0; k < j; ++k) A[j][j] -= A[j][k] * A[j][k];
+    if (!(A[j][j] > 1e-8 * diagonal) || diagonal <= 0.0) return false;
+    A[j][j] = std::sqrt(A[j][j]);
+    for (std::size_t i = j + 1; i < n; ++i) {
+      for (std::size_t k = 0; k < j; ++k) A[i][j] -= A[i][k] * A[j][k];
+      A[i][j] /= A[j][j];
+    }
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    c[i] = i == 0 ? 1.0 : 0.0;
+    for (std::size_t k = 0; k < i; ++k) c[i] -= A[i][k] * c[k];
+    c[i] /= A[i][i];
+  }
+  for (std::size_t i = n; i-- > 0;) {
+    for (std::size_t k = i + 1; k < n; ++k) c[i] -= A[k][i] * c[k];
+    c[i] /= A[i][i];
+  }
+  return true;
+}
+
+struct Weighted {
+  std::size_t j;
+  double weight;  // V_j W_j
+};
+
+}  // namespace
+
+template <int D>
+void sample_states(const Particles<D>& particles, const Layers<D>& layers, const SampleRules& rules,
+                   const coupler::Targets& targets, coupler::Samples& samples) {
+  const Kernel<D> kernel(rules.kernel_radius);
+  std::array<std::vector<double>, D> x;
+  std::vector<std::size_t> source;
+  for (std::size_t j = 0; j < particles.size(); ++j) {
+    const Point<D> position = at<D>(particles.x, j);
+    if (layers.zone(layers.excess(position)) == Zone::driven) continue;
+    for (std::size_t d = 0; d < D; ++d) x[d].push_back(position[d]);
+    source.push_back(j);
+  }
+  CellGrid<D> grid;
+  if (!source.empty()) grid.bin(x, source.size(), rules.kernel_radius);
+
+  std::array<double*, 3> velocity = {samples.u.data(), samples.v.data(), samples.w.data()};
+  const auto n = static_cast<std::ptrdiff_t>(targets.size());
+#pragma omp parallel
+  {
+    std::vector<Weighted> near;
+#pragma omp for schedule(static)
+    for (std::ptrdiff_t k = 0; k < n; ++k) {
+      const auto t = static_cast<std::size_t>(k);
+      const Point<D> target = from_vec3<D>({targets.x[t], targets.y[t], targets.z[t]});
+      samples.p[t] = samples.u[t] = samples.v[t] = samples.w[t] = samples.coverage[t] = 0.0;
+      samples.status[t] = coupler::SampleStatus::uncovered;
+      if (source.empty() || layers.excess(target) > layers.blending_width()) continue;
+
+      near.clear();
+      double coverage = 0.0;
+      Moments<D> A{};
+      grid.for_each_range(target, kernel.R, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t q = begin; q < end; ++q) {
+          const auto s = static_cast<std::size_t>(grid.order()[q]);
+          std::array<double, k_basis<D>> b{1.0};
+          double r2 = 0.0;
+          for (std::size_t d = 0; d < D; ++d) {
+            b[d + 1] = (x[d][s] - target[d]) * kernel.inv_R;
+            r2 += b[d + 1] * b[d + 1];
+          }
+          if (r2 >= 1.0) continue;
+          const double weight = particles.V[source[s]] * kernel.value(std::sqrt(r2) * kernel.R);
+          near.push_back({s, weight});
+          coverage += weight;
+          for (std::size_t i = 0; i < k_basis<D>; ++i)
+            for (std::size_t j = 0; j < k_basis<D>; ++j) A[i][j] += weight * b[i] * b[j];
+        }
+      });
+      samples.coverage[t] = coverage;
+      if (coverage < k_least_coverage) {
+        if (rules.free_surface) samples.status[t] = coupler::SampleStatus::dry;
+        continue;
+      }
+      std::array<double, k_basis<D>> c{};
+      if (rules.method == SampleMethod::shepard || !first_column_of_inverse<D>(A, c)) {
+        c.fill(0.0);
+        c[0] = 1.0 / coverage;
+      }
+      double p = 0.0;
+      Point<D> u{};
+      for (const Weighted& neighbor : near) {
+        double factor = c[0];
+        for (std::size_t d = 0; d < D; ++d)
+          factor += c[d + 1] * (x[d][neighbor.j] - target[d]) * kernel.inv_R;
+        factor *= neighbor.weight;
+        const std::size_t j = source[neighbor.j];
+        p += factor * particles.p[j];
+        for (std::size_t d = 0; d < D; ++d) u[d] += factor * particles.u[d][j];
+      }
+      samples.p[t] = p;
+      for (std::size_t d = 0; d < D; ++d) velocity[space_axis<D>(d)][t] = u[d];
+      samples.status[t] = coupler::SampleStatus::ok;
+    }
+  }
+}
+
+template void sample_states<2>(const Particles<2>&, const Layers<2>&, const SampleRules&,
+                               const coupler::Targets&, coupler::Samples&);
+template void sample_states<3>(const Particles<3>&, const Layers<3>&, const SampleRules&,
+                               const coupler::Targets&, coupler::Samples&);
+
+}  // namespace littoral::sph

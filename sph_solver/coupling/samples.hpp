@@ -1,0 +1,39 @@
+#pragma once
+
+#include "coupling/zones.hpp"
+#include "littoral/coupler/fields.hpp"
+#include "particles/particles.hpp"
+
+namespace littoral::sph {
+
+/// How values at FV's points are made from particles.
+///   shepard    sum(W V q) / sum(W V): exact for constants only; below a flat surface it reads a hydrostatic
+///              field 0.21 R too deep. Fit for complete supports
+///   corrected  moving least squares with a linear basis, weights W V: exact for linear fields on any support
+enum class SampleMethod { shepard, corrected };
+
+struct SampleRules {
+  SampleMethod method = SampleMethod::corrected;
+  double kernel_radius = 0.0;  // R [m]
+  bool free_surface = false;   // a target without particles is dry, not uncovered
+};
+
+/// p and u at the targets from the free and the blending particles; driven ones only repeat FV's own values.
+/// Where the linear basis cannot be fitted (too few particles, or all on a line) Shepard's value serves;
+/// where the coverage sum(V W) is below a quarter, less than the corner of a body of water has, there is no
+/// value: the point is dry in a scene with a free surface, else uncovered. Points outside the nominal box and
+/// its blending layers are uncovered. in    particles of owned and copies, positions and states of `time` out
+/// samples: all but phi; same result on any number of threads comm  local. throws nothing
+template <int D>
+void sample_states(const Particles<D>& particles, const Layers<D>& layers, const SampleRules& rules,
+                   const coupler::Targets& targets, coupler::Samples& samples);
+
+/// phi at the targets that want it, from the surface particles: (20), averaged with the kernel over the
+/// surface particles around the nearest one (a single particle's position is noise of .03 dx). Beyond `band`
+/// from the surface phi is +-band, its sign from the coverage.
+/// in    particles.surface, .normal of the owned; samples.coverage from sample_states
+template <int D>
+void sample_level_set(const Particles<D>& particles, const SampleRules& rules, double spacing, double band,
+                      const coupler::Targets& targets, coupler::Samples& samples);
+
+}  // namespace littoral::sph

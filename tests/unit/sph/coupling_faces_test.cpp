@@ -1,0 +1,91 @@
+#include <gtest/gtest.h>
+
+#include "coupling/face_elements.hpp"
+#include "coupling_support.hpp"
+#include "littoral/error.hpp"
+
+namespace littoral::sph {
+namespace {
+
+const LinearEos k_eos{1000.0, 10.0, 0.0};
+
+TEST(FaceElementsTest, TileTheOuterFaces) {
+  const auto layers = test::unit_box<3>(test::all_open<3>(), 0.25, 0.25);
+  const FaceElements<3> faces(layers, 0.26);
+  double area = 0.0;
+  for (std::size_t e = 0; e < faces.size(); ++e) area += faces[e].area;
+  EXPECT_NEAR(area, 6 * 2.0 * 2.0, 1e-12);
+  EXPECT_EQ(faces.size(), 6u * 8u * 8u);
+}
+
+TEST(FaceElementsTest, IntegrateTheMassFluxWithTheLocalDensity) {  // (18)
+  const auto layers = test::unit_box<2>(test::all_open<2>(), 0.25, 0.25);
+  FaceElements<2> faces(layers, 0.5);
+  // u_x = 3 t: the mean over [1, 2] is 4.5; rho(p) = 1000 + 500/100
+  const test::FormulaExterior fv([](const coupler::Vec3&, double t) {
+    return coupler::DonorState{500.0, {3.0 * t, 0.0, 0.0}, 0.0};
+  });
+  faces.integrate(fv, k_eos, 1.0, 1.0);
+  for (std::size_t e = 0; e < faces.size(); ++e) {
+    const double inward = faces[e].axis == 0 ? faces[e].inward : 0.0;
+    EXPECT_NEAR(faces.mass(e), inward * 1005.0 * 4.5 * 0.5, 1e-9);
+  }
+  EXPECT_NEAR(faces.flux(), 0.0, 1e-9);
+}
+
+TEST(FaceElementsTest, CountOnlyTheWetPart) {  // (19)
+  const auto layers = test::unit_box<2>({{{true, false}, {false, false}}}, 0.25, 0.25);
+  FaceElements<2> faces(layers, 0.25);  // four elements up the face x = -0.5
+  const test::FormulaExterior fv(
+      [](const coupler::Vec3& x, double) {
+        return coupler::DonorState{0.0, {1.0, 0.0, 0.0}, x[2] - 0.55};
+      },
+      true);
+  faces.integrate(fv, k_eos, 0.0, 1.0);
+  ASSERT_EQ(faces.size(), 4u);
+  EXPECT_DOUBLE_EQ(faces.mass(0), 250.0);
+  EXPECT_DOUBLE_EQ(faces.mass(1), 250.0);
+  EXPECT_NEAR(faces.mass(2), 50.0, 1e-9);  // wet from .50 to .55
+  EXPECT_DOUBLE_EQ(faces.mass(3), 0.0);
+}
+
+TEST(FaceElementsTest, CutElementInSpaceCountsItsWetShare) {  // (19)
+  const auto layers = test::unit_box<3>({{{true, false}, {false, false}, {false, false}}}, 0.25, 0.25);
+  FaceElements<3> faces(layers, 1.0);
+  const test::FormulaExterior fv(
+      [](const coupler::Vec3& x, double) {
+        return coupler::DonorState{0.0, {1.0, 0.0, 0.0}, (x[1] + x[2] - 1.0) / std::sqrt(2.0)};
+      },
+      true);
+  faces.integrate(fv, k_eos, 0.0, 1.0);
+  EXPECT_NEAR(faces.mass(0), 500.0, 1000.0 / 32.0);  // half, to half a row of the 16 sub-points
+}
+
+TEST(FaceElementsTest, KnowWhereAParticleLeft) {
+  const auto layers = test::unit_box<2>(test::all_open<2>(), 0.25, 0.25);
+  const FaceElements<2> faces(layers, 0.5);
+  EXPECT_EQ(faces.crossed({0.5, 0.5}), faces.size());
+  const std::size_t e = faces.crossed({1.51, 0.6});
+  EXPECT_EQ(faces[e].axis, 0u);
+  EXPECT_EQ(faces[e].inward, -1.0);
+  EXPECT_NEAR(faces[e].centre[1], 0.75, 0.26);
+  const std::size_t corner = faces.crossed({-0.52, 1.6});
+  EXPECT_EQ(faces[corner].axis, 1u) << "through the face it is furthest beyond";
+  EXPECT_EQ(faces[corner].centre[0], -0.25);
+}
+
+TEST(FaceElementsTest, RestoreToTheBit) {
+  const auto layers = test::unit_box<2>(test::all_open<2>(), 0.25, 0.25);
+  FaceElements<2> faces(layers, 0.5), other(layers, 0.5);
+  const test::FormulaExterior fv([](const coupler::Vec3& x, double) {
+    return coupler::DonorState{0.0, {0.1 * x[0], 0.0, 0.3}, 0.0};
+  });
+  for (int k = 0; k < 10; ++k) faces.integrate(fv, k_eos, 0.0, 0.1);
+  other.unpack(faces.pack());
+  for (std::size_t e = 0; e < faces.size(); ++e) EXPECT_EQ(faces.mass(e), other.mass(e));
+  EXPECT_EQ(faces.flux(), other.flux());
+  EXPECT_THROW(other.unpack({1.0, 2.0, 3.0, 4.0}), IoError);
+}
+
+}  // namespace
+}  // namespace littoral::sph

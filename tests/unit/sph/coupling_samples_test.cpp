@@ -1,0 +1,169 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "coupling/samples.hpp"
+#include "coupling_support.hpp"
+
+namespace littoral::sph {
+namespace {
+
+const LinearEos k_eos{1000.0, 10.0, 0.0};
+constexpr double k_dx = 0.05;
+
+coupler::Targets points(const std::vector<coupler::Vec3>& places) {
+  coupler::Targets targets;
+  for (const auto& x : places) {
+    targets.x.push_back(x[0]);
+    targets.y.push_back(x[1]);
+    targets.z.push_back(x[2]);
+    targets.wants.push_back(coupler::wants_state | coupler::wants_phi);
+  }
+  return targets;
+}
+
+template <int D>
+coupler::Samples sample(const Particles<D>& particles, const coupler::Targets& targets, SampleMethod method,
+                        const Layers<D>& layers) {
+  coupler::Samples samples;
+  samples.resize(targets.size(), true);
+  sample_states(particles, layers, {method, (D == 2 ? 4.0 : 2.7) * k_dx, true}, targets, samples);
+  return samples;
+}
+
+template <int D>
+Particles<D> jittered(const test::FormulaExterior& field) {
+  Point<D> lower, upper;
+  lower.fill(0.0);
+  upper.fill(1.0);
+  auto particles = test::lattice<D>(lower, upper, k_dx, k_eos, field);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> shake(-0.15 * k_dx, 0.15 * k_dx);
+  for (std::size_t i = 0; i < particles.n_owned; ++i) {
+    for (auto& column : particles.x) column[i] += shake(random);
+    std::int64_t hint = -1;
+    const auto state = field.at(to_vec3<D>(at<D>(particles.x, i)), 0.0, hint);
+    particles.p[i] = state->p;
+    for (std::size_t d = 0; d < D; ++d) particles.u[d][i] = state->u[space_axis<D>(d)];
+  }
+  return particles;
+}
+
+const std::vector<coupler::Vec3> k_places = {
+    {0.5, 0.5, 0.5}, {0.31, 0.62, 0.47}, {0.5, 0.5, 0.99}, {0.02, 0.5, 0.98}};
+
+template <int D>
+void constants_are_exact(SampleMethod method) {  // C2
+  const test::FormulaExterior field([](const coupler::Vec3&, double) {
+    return coupler::DonorState{3.0, {1.0, -2.0, 0.5}, 0.0};
+  });
+  const auto particles = jittered<D>(field);
+  const auto targets = points(k_places);
+  const auto samples = sample<D>(particles, targets, method, test::unit_box<D>({}, 0.0, 0.0));
+  for (std::size_t t = 0; t < targets.size(); ++t) {
+    EXPECT_EQ(samples.status[t], coupler::SampleStatus::ok);
+    EXPECT_NEAR(samples.p[t], 3.0, 1e-12);  // round-off of a sum of 81 terms
+    EXPECT_NEAR(samples.u[t], 1.0, 1e-12);
+    EXPECT_NEAR(samples.v[t], D == 3 ? -2.0 : 0.0, 1e-12);
+    EXPECT_NEAR(samples.w[t], 0.5, 1e-12);
+  }
+}
+
+TEST(SamplesTest, ConstantsAreExact) {
+  constants_are_exact<2>(SampleMethod::shepard);
+  constants_are_exact<2>(SampleMethod::corrected);
+  constants_are_exact<3>(SampleMethod::shepard);
+  constants_are_exact<3>(SampleMethod::corrected);
+}
+
+test::FormulaExterior linear() {
+  return test::FormulaExterior([](const coupler::Vec3& x, double) {
+    return coupler::DonorState{2.0 - 3.0 * x[2] + x[0], {x[2], 0.5 * x[1], -x[0]}, 0.0};
+  });
+}
+
+TEST(SamplesTest, CorrectedIsExactForLinearFieldsEvenAtTheSurface) {  // C2
+  const auto field = linear();
+  const auto targets = points(k_places);
+  const auto plane =
+      sample<2>(jittered<2>(field), targets, SampleMethod::corrected, test::unit_box<2>({}, 0, 0));
+  const auto space =
+      sample<3>(jittered<3>(field), targets, SampleMethod::corrected, test::unit_box<3>({}, 0, 0));
+  for (std::size_t t = 0; t < targets.size(); ++t) {
+    std::int64_t hint = -1;
+    const auto exact = *field.at(k_places[t], 0.0, hint);
+    EXPECT_NEAR(plane.p[t], exact.p, 1e-12);
+    EXPECT_NEAR(plane.w[t], exact.u[2], 1e-12);
+    EXPECT_NEAR(space.p[t], exact.p, 1e-12);
+    EXPECT_NEAR(space.v[t], exact.u[1], 1e-12);
+  }
+}
+
+TEST(SamplesTest, ShepardIsNearlyLinearInTheBulkAndTooDeepAtASurface) {  // C2, 1e-2 dx grad; trap 5
+  const auto field = linear();
+  const auto particles = test::lattice<2>({0, 0}, {1, 1}, k_dx, k_eos, field);
+  const auto targets = points({{0.5, 0.0, 0.5}, {0.5, 0.0, 0.51}, {0.5, 0.0, 1.0}});
+  const auto samples = sample<2>(particles, targets, SampleMethod::shepard, test::unit_box<2>({}, 0, 0));
+  const double gradient = std::sqrt(10.0);
+  EXPECT_NEAR(samples.p[0], 2.0 - 1.5 + 0.5, 1e-2 * k_dx * gradient);
+  EXPECT_NEAR(samples.p[1], 2.0 - 1.53 + 0.5, 1e-2 * k_dx * gradient);
+  // mean depth of half a Wendland disc: 0.212 R, to the 1% that a lattice of R = 4 dx leaves
+  EXPECT_NEAR((samples.p[2] - (2.0 - 3.0 + 0.5)) / 3.0, 0.212 * 4 * k_dx, 0.01 * 4 * k_dx);
+  EXPECT_NEAR(samples.coverage[2], 0.5, 0.01);
+}
+
+TEST(SamplesTest, TellWaterFromAirFromElsewhere) {
+  const auto particles = test::lattice<2>({0, -0.5}, {1, 1}, k_dx, k_eos, linear());
+  const auto layers = test::unit_box<2>({{{false, false}, {true, false}}}, 0.1, 0.4);
+  const auto samples =
+      sample<2>(particles, points({{0.5, 0, 0.5}, {0.5, 0, 1.3}, {0.5, 0, -0.2}, {0.5, 0, -0.05}}),
+                SampleMethod::corrected, layers);
+  EXPECT_EQ(samples.status[0], coupler::SampleStatus::ok);
+  EXPECT_EQ(samples.status[1], coupler::SampleStatus::dry);
+  EXPECT_EQ(samples.status[2], coupler::SampleStatus::uncovered) << "in the driven layer";
+  EXPECT_EQ(samples.status[3], coupler::SampleStatus::ok) << "in the blending layer";
+}
+
+TEST(SamplesTest, DrivenParticlesDoNotCount) {
+  auto particles = test::lattice<2>({0, -0.5}, {1, 1}, k_dx, k_eos, linear());
+  for (std::size_t i = 0; i < particles.n_owned; ++i)
+    if (particles.x[1][i] < -0.1) particles.p[i] = 1e30;
+  const auto layers = test::unit_box<2>({{{false, false}, {true, false}}}, 0.1, 0.4);
+  const auto samples = sample<2>(particles, points({{0.5, 0, -0.05}}), SampleMethod::corrected, layers);
+  EXPECT_NEAR(samples.p[0], 2.0 + 0.15 + 0.5, 1e-12);
+}
+
+TEST(SamplesTest, ALineOfParticlesFallsBackToShepard) {
+  Particles<2> particles;
+  for (int k = 0; k < 20; ++k)
+    particles.append({{k_dx * k, 0.5}, {1.0, 0.0}, 3 * k_dx * k_dx, 7.5, 4.0, Zone::interior});
+  const auto samples =
+      sample<2>(particles, points({{0.5, 0, 0.5}}), SampleMethod::corrected, test::unit_box<2>({}, 0, 0));
+  EXPECT_EQ(samples.status[0], coupler::SampleStatus::ok);
+  EXPECT_NEAR(samples.p[0], 4.0, 1e-12);
+}
+
+TEST(SamplesTest, LevelSetOfAPlaneAndACircle) {  // (20), gate 0.25 dx
+  const double R = 0.7;
+  Particles<2> particles;
+  const int n = static_cast<int>(2 * 3.14159265 * R / k_dx);
+  for (int k = 0; k < n; ++k) {
+    const double a = 2 * 3.14159265358979 * k / n;
+    particles.append({{(R - 0.5 * k_dx) * std::cos(a), (R - 0.5 * k_dx) * std::sin(a)}, {}, 1, 1, 0, {}});
+    particles.surface.back() = SurfaceFlag::surface;
+    particles.normal[0].back() = std::cos(a);
+    particles.normal[1].back() = std::sin(a);
+  }
+  const auto targets = points({{0.6, 0, 0.3}, {0.5, 0, 0.5}, {0.5, 0, 0.6}, {0.1, 0, 0.1}});
+  coupler::Samples samples;
+  samples.resize(targets.size(), true);
+  samples.coverage.assign(targets.size(), 1.0);
+  sample_level_set(particles, {SampleMethod::corrected, 4 * k_dx, true}, k_dx, 6 * k_dx, targets, samples);
+  for (std::size_t t = 0; t < 3; ++t)
+    EXPECT_NEAR(samples.phi[t], std::hypot(targets.x[t], targets.z[t]) - R, 0.25 * k_dx);
+  EXPECT_EQ(samples.phi[3], -6 * k_dx) << "far inside: the band's end";
+}
+
+}  // namespace
+}  // namespace littoral::sph
