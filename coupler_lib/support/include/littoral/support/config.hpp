@@ -51,6 +51,7 @@ class Binder {
     Key& exclusive_min(double bound);       ///< value > bound
     Key& max(double highest);               ///< value <= highest
     Key& exclusive_max(double bound);       ///< value < bound
+    Key& may_be_infinite();                 ///< `.inf` is a value; without this it is refused
     Key& doc(const std::string& sentence);  ///< closes the declaration: reads, checks and records it
 
    private:
@@ -63,7 +64,7 @@ class Binder {
 
   /// read: values come from the document. Constants named in the document's `constants:` map serve all
   /// formulas.
-  explicit Binder(Document document);
+  explicit Binder(const Document& document);
   /// help or resolved: no document; the text is available from text().
   explicit Binder(Mode mode);
   ~Binder();
@@ -91,6 +92,18 @@ class Binder {
                        [&value](int v) { value = static_cast<Enum>(v); });
   }
 
+  /// Two of them, as the lower and the upper side of a direction; one word alone stands for both.
+  template <class Enum>
+  Key choices(const std::string& name, std::array<Enum, 2>& value,
+              const std::vector<std::pair<std::string, Enum>>& words) {
+    std::vector<std::pair<std::string, int>> plain;
+    for (const auto& w : words) plain.emplace_back(w.first, static_cast<int>(w.second));
+    return choices_impl(name, {static_cast<int>(value[0]), static_cast<int>(value[1])}, plain,
+                        [&value](std::array<int, 2> v) {
+                          value = {static_cast<Enum>(v[0]), static_cast<Enum>(v[1])};
+                        });
+  }
+
   /// A map of further keys. `present` (may be null) tells whether the document has it; without it an absent
   /// section is read as empty, so that its required keys are reported.
   void section(const std::string& name, const std::string& doc, const std::function<void()>& body,
@@ -101,16 +114,21 @@ class Binder {
             const std::function<void(Binder&, T&)>& bind_item) {
     list_impl(
         name, doc, items.size(), [&items](std::size_t n) { items.resize(n); },
-        [&](std::size_t i) {
-          if (items.size() <= i) items.resize(i + 1);
-          bind_item(*this, items[i]);
-        });
+        [&](std::size_t i) { bind_item(*this, items[i]); });
   }
   /// A map from free names to numbers (as `constants:`); entries may be formulas of the entries before them.
+  /// The map named `constants` serves all formulas declared after it.
   void numbers(const std::string& name, const std::string& doc, std::map<std::string, double>& values);
 
-  /// A further condition between keys; reported at `name`'s line (dotted path from the top).
+  /// A further condition between keys; reported at `name`'s line (dotted path from the top). Without effect
+  /// where `name` already has a problem, and outside of read mode.
   void check(bool holds, const std::string& name, const std::string& problem);
+
+  /// True if none of these keys, nor anything in them, had a problem so far (then their values can be
+  /// compared).
+  bool sound(const std::vector<std::string>& paths) const;
+  /// True if the document itself has a value at the path.
+  bool given(const std::string& path) const;
 
   /// Constants that formulas of this document may use besides its own (the scene's, for a solver's file).
   void use_constants(const std::map<std::string, double>& constants);
@@ -125,6 +143,9 @@ class Binder {
  private:
   Key choice_impl(const std::string& name, int current, const std::vector<std::pair<std::string, int>>& words,
                   const std::function<void(int)>& assign);
+  Key choices_impl(const std::string& name, std::array<int, 2> current,
+                   const std::vector<std::pair<std::string, int>>& words,
+                   const std::function<void(std::array<int, 2>)>& assign);
   void list_impl(const std::string& name, const std::string& doc, std::size_t size,
                  const std::function<void(std::size_t)>& resize,
                  const std::function<void(std::size_t)>& bind_item);

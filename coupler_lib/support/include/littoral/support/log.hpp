@@ -9,12 +9,14 @@ namespace littoral::support {
 /// console. A line starts with the program's name; the file's lines also carry the wall clock.
 class Log {
  public:
-  Log(const std::string& program, int rank, const std::string& file_path);  ///< file_path empty: console only
+  /// file_path empty: console only. The caller gives it on the ranks that keep a file (usually rank 0).
+  /// throws IoError if the file cannot be opened
+  Log(const std::string& program, int rank, const std::string& file_path, double seconds = 0.5);
   ~Log();
   void info(const std::string& message);
   void warn(const std::string& message);
   /// One line a window at most, with the remaining time estimated from the run so far; throttled on the
-  /// console to one line every `seconds` (0.5 by default) and always in the file.
+  /// console to one line every `seconds` of wall time, and always in the file.
   void progress(double time, double end_time, const std::string& details);
 
  private:

@@ -76,9 +76,24 @@ struct Scene {
   double reference_velocity = 0.0;  // [m/s] U_ref of (14) and (22); 0: sound_speed / 10
 
   bool has_free_surface() const { return initial.surface.has_value(); }
+  bool has_region() const { return coupling.kind != CouplingKind::none; }
+  /// U_ref of (14) and (22) [m/s].
+  double velocity_scale() const {
+    return reference_velocity > 0.0 ? reference_velocity : 0.1 * fluid.sound_speed;
+  }
+  /// In 2-D the direction y (1) does not exist.
+  bool active(std::size_t direction) const { return dimension == 3 || direction != 1; }
+  /// Whether a region's face is open to the grid: not on a periodic or symmetry face of the domain, nor on an
+  /// open one (nothing of the grid is beyond it). side: 0 lower, 1 upper
+  bool open_face(const Region& region, std::size_t direction, std::size_t side) const;
+
   std::string digest;  // of the resolved scene: both sides must have read the same
+  /// Of the part that a continued run must share with the one before: all but title, time and deadline.
+  std::string restart_digest;
 
   void bind(Binder& b);
+  /// The whole scene as YAML that reads back to the same values.
+  std::string resolved() const;
   /// Reads and checks scene.yaml; `settings` are the --set that name scene keys ("scene.fluid.density=1").
   /// throws ConfigError with all problems
   static Scene from_file(const std::string& path, const std::vector<std::string>& settings = {});

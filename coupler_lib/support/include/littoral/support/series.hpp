@@ -10,14 +10,15 @@
 namespace littoral::support {
 
 /// A CSV file with a fixed header, full precision (%.17g), flushed each row.
-/// After a restart, rows later than the restart's time are cut off and writing goes on (append_after).
-/// throws IoError with the path and the system's reason, also when the disk is full
+/// The second line may give units, after a "#". After a restart, rows later than the restart's time are cut
+/// off and writing goes on (append_after; a file that is not there is begun). throws IoError with the path
+/// and the system's reason, also when the disk is full
 class CsvSeries {
  public:
   CsvSeries(const std::string& path, const std::vector<std::string>& columns,
             const std::string& units_comment = "");
-  static CsvSeries append_after(const std::string& path, const std::vector<std::string>& columns,
-                                double time);
+  static CsvSeries append_after(const std::string& path, const std::vector<std::string>& columns, double time,
+                                const std::string& units_comment = "");
   CsvSeries(CsvSeries&&) noexcept;
   ~CsvSeries();
   void row(const std::vector<double>& values);  ///< values.size() == columns; first column is the time

@@ -1,0 +1,74 @@
+#include "output_file.hpp"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include "littoral/error.hpp"
+
+namespace littoral::support {
+namespace {
+
+[[noreturn]] void fail(const std::string& path, const std::string& action, int code) {
+  throw IoError(path + ": cannot " + action + ": " + std::strerror(code) + ".");
+}
+
+}  // namespace
+
+OutputFile::OutputFile(const std::string& path, Mode mode) : path_(path) {
+  const auto folder = std::filesystem::path(path).parent_path();
+  std::error_code error;
+  if (!folder.empty()) std::filesystem::create_directories(folder, error);
+  if (error) fail(folder.string(), "make the folder", error.value());
+  errno = 0;
+  file_ = std::fopen(path.c_str(), mode == Mode::append ? "ab" : "wb");
+  if (!file_) fail(path, "open for writing", errno);
+}
+
+OutputFile::~OutputFile() {
+  if (file_) std::fclose(file_);
+}
+
+void OutputFile::write(const void* bytes, std::size_t count) {
+  errno = 0;
+  if (std::fwrite(bytes, 1, count, file_) != count) fail(path_, "write", errno);
+}
+
+void OutputFile::flush() {
+  errno = 0;
+  if (std::fflush(file_) != 0) fail(path_, "write", errno);
+}
+
+void OutputFile::close() {
+  flush();
+  // pipes and terminals cannot be synchronised; that is no loss
+  if (fsync(fileno(file_)) != 0 && errno != EINVAL && errno != EROFS) fail(path_, "write", errno);
+  std::FILE* file = file_;
+  file_ = nullptr;
+  errno = 0;
+  if (std::fclose(file) != 0) fail(path_, "close", errno);
+}
+
+void replace_file(const std::string& path, const void* bytes, std::size_t count) {
+  const std::string temporary = path + ".part";
+  try {
+    OutputFile file(temporary, OutputFile::Mode::create);
+    file.write(bytes, count);
+    file.close();
+    std::error_code error;
+    std::filesystem::rename(temporary, path, error);
+    if (error) fail(path, "rename the finished file to this name", error.value());
+  } catch (const IoError&) {
+    std::error_code ignored;
+    std::filesystem::remove(temporary, ignored);
+    throw;
+  }
+}
+
+void replace_file(const std::string& path, const std::string& text) {
+  replace_file(path, text.data(), text.size());
+}
+
+}  // namespace littoral::support
