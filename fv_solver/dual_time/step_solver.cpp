@@ -1,4 +1,4 @@
-#include "dual_time/inner_solver.hpp"
+#include "dual_time/step_solver.hpp"
 
 #include <cmath>
 

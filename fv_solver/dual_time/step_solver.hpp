@@ -31,7 +31,7 @@ struct InnerTolerance {
   bool met(double norm, double first) const { return norm <= drop * first || norm <= floor; }
 };
 
-struct InnerReport {
+struct StepReport {
   int cycles = 0;
   bool converged = false;
   std::vector<double> norms;  // [m/s] before the first cycle, then after each
@@ -40,13 +40,13 @@ struct InnerReport {
 
 /// A way to solve a step: plain dual time (6), or the linear multigrid correction.
 template <int D>
-class InnerSolver {
+class StepSolver {
  public:
-  virtual ~InnerSolver() = default;
+  virtual ~StepSolver() = default;
   /// in/out q: the start, then the solution; ghosts current on return. Cells that are not solved keep their
   /// values. comm local
-  virtual InnerReport solve(const StepProblem<D>& problem, const InnerTolerance& tolerance,
-                            std::vector<State<D>>& q) = 0;
+  virtual StepReport solve(const StepProblem<D>& problem, const InnerTolerance& tolerance,
+                           std::vector<State<D>>& q) = 0;
 };
 
 }  // namespace littoral::fv

@@ -1,0 +1,104 @@
+#include "dual_time/plain.hpp"
+
+#include <cmath>
+
+#include "grid/loops.hpp"
+
+namespace littoral::fv {
+namespace {
+
+/// body(first offset, cells) for each row of inner cells.
+template <int D, class Body>
+void for_each_row(const Block<D>& block, Body&& body) {
+  std::array<int, D> lower{}, upper = block.extent.n;
+  upper[0] = 1;
+  for_each_index<D>(lower, upper, [&](const std::array<int, D>& index) {
+    body(static_cast<std::size_t>(block.extent.at(index)), static_cast<std::size_t>(block.extent.n[0]));
+  });
+}
+
+}  // namespace
+
+template <int D>
+void PlainDualTime<D>::set_pseudo_steps(const StepProblem<D>& problem, const std::vector<State<D>>& q) {
+  const Equations<D>& e = problem.equations;
+  pseudo_step_.resize(problem.blocks.size());
+  beta_.resize(problem.blocks.size());
+  for (std::size_t b = 0; b < problem.blocks.size(); ++b) {
+    const Block<D>& block = problem.blocks[b];
+    pseudo_step_[b].assign(block.extent.size, 0.0);
+    beta_[b].assign(block.extent.size, 0.0);
+    for_each_row(block, [&](std::size_t first, std::size_t n) {
+      for (std::size_t c = first; c < first + n; ++c) {
+        const double v = block.volume[c];
+        double convection = 0.0, measures = 0.0, friction = 0.0, widest = 0.0;
+        for (std::size_t d = 0; d < D; ++d) {
+          double s2 = 0.0, flow = 0.0;
+          for (std::size_t k = 0; k < D; ++k) {
+            const std::size_t up = c + static_cast<std::size_t>(block.extent.stride[d]);
+            const double a = 0.5 * (block.area[d][k][c] + block.area[d][k][up]);
+            s2 += a * a;
+            flow += a * q[b].u[k][c];
+          }
+          convection += std::abs(flow);
+          measures += std::sqrt(s2);
+          friction += 4.0 * e.fluid.viscosity * s2 / v;
+          widest = std::max(widest, std::sqrt(s2));
+        }
+        // the thinnest side decides: a larger beta would make the dissipation across it unstable
+        const double c_p = e.speeds.mass(v / widest, problem.time.dt);
+        beta_[b][c] = c_p * c_p;
+        pseudo_step_[b][c] = pseudo_cfl_ * v / (convection + c_p * measures + friction);
+      }
+    });
+  }
+}
+
+template <int D>
+StepReport PlainDualTime<D>::solve(const StepProblem<D>& problem, const InnerTolerance& tolerance,
+                                   std::vector<State<D>>& q) {
+  // Martinelli & Jameson 1988: five stages for upwind-biased schemes
+  static constexpr double k_stages[] = {0.25, 1.0 / 6.0, 0.375, 0.5, 1.0};
+  const double rho0 = problem.equations.fluid.density, inverse_c2 = problem.equations.fluid.inverse_c2;
+  StepReport report;
+  set_pseudo_steps(problem, q);
+  problem.evaluate(q, residual_);
+  report.norms.push_back(problem.norm(residual_));
+  while (report.cycles < tolerance.max_cycles && std::isfinite(report.norms.back()) &&
+         !tolerance.met(report.norms.back(), report.norms.front())) {
+    start_ = q;
+    for (const double stage : k_stages) {
+      for (std::size_t b = 0; b < problem.blocks.size(); ++b) {
+        const Block<D>& block = problem.blocks[b];
+        const Forcing<D>& forcing = problem.forcing[b];
+        for_each_row(block, [&](std::size_t first, std::size_t n) {
+          for (std::size_t c = first; c < first + n; ++c) {
+            const double step = stage * pseudo_step_[b][c];
+            const double forced = forcing.active() ? forcing.rate[c] : 0.0;
+            const double a_p = beta_[b][c] * (problem.time.a0 * inverse_c2 + forced * forcing.psi);
+            const double a_u = problem.time.a0 + forced;
+            const double per_volume = step * block.solved[c] / block.volume[c];
+            double& p = q[b].p[c];
+            p = (start_[b].p[c] + step * a_p * p - per_volume * beta_[b][c] * residual_[b].mass[c]) /
+                (1.0 + step * a_p);
+            for (std::size_t k = 0; k < D; ++k) {
+              double& u = q[b].u[k][c];
+              u = (start_[b].u[k][c] + step * a_u * u - per_volume / rho0 * residual_[b].momentum[k][c]) /
+                  (1.0 + step * a_u);
+            }
+          }
+        });
+      }
+      problem.evaluate(q, residual_);
+    }
+    ++report.cycles;
+    report.norms.push_back(problem.norm(residual_));
+  }
+  report.converged = tolerance.met(report.norms.back(), report.norms.front());
+  return report;
+}
+
+template class PlainDualTime<2>;
+template class PlainDualTime<3>;
+
+}  // namespace littoral::fv

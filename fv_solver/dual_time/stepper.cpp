@@ -1,0 +1,216 @@
+#include "dual_time/stepper.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "boundary/ghosts.hpp"
+#include "grid/loops.hpp"
+#include "littoral/error.hpp"
+
+namespace littoral::fv {
+namespace {
+
+template <int D>
+std::array<double, D> centre(const Block<D>& block, std::size_t c) {
+  std::array<double, D> x;
+  for (std::size_t k = 0; k < D; ++k) x[k] = block.centre[k][c];
+  return x;
+}
+
+}  // namespace
+
+template <int D>
+Stepper<D>::Stepper(std::vector<Block<D>> blocks, const Equations<D>& equations,
+                    std::unique_ptr<StepSolver<D>> inner, const InnerTolerance& tolerance)
+    : blocks_(std::move(blocks)),
+      equations_(equations),
+      inner_(std::move(inner)),
+      tolerance_(tolerance),
+      forcing_(blocks_.size()),
+      history_(blocks_.size()) {
+  for (auto& block : blocks_) {
+    check_windows(block);
+    set_reference_pressure(block, equations_.fluid);
+  }
+  for (auto& level : level_) {
+    level.resize(blocks_.size());
+    for (std::size_t b = 0; b < blocks_.size(); ++b) level[b].resize(blocks_[b].extent.size);
+  }
+}
+
+template <int D>
+void Stepper<D>::initialise(const FlowFunction<D>& flow, double t) {
+  time_ = t;
+  known_ = 1;
+  steps_ = 0;
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    State<D>& q = level_[0][b];
+    for (std::size_t c = 0; c < blocks_[b].extent.size; ++c) {
+      const PointState<D> s = flow(centre(blocks_[b], c), t);
+      q.p[c] = s.p;
+      for (std::size_t k = 0; k < D; ++k) q.u[k][c] = s.u[k];
+    }
+    evaluate_windows(blocks_[b], equations_, t);
+    fill_ghosts(blocks_[b], q);
+  }
+}
+
+template <int D>
+BackwardDifference Stepper<D>::scheme(double dt) const {
+  return known_ > 1 ? BackwardDifference::second_order(dt, dt_[0]) : BackwardDifference::first_order(dt);
+}
+
+template <int D>
+void Stepper<D>::set_history(const BackwardDifference& s, double t) {
+  const Fluid<D>& fluid = equations_.fluid;
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const Block<D>& block = blocks_[b];
+    const State<D>& now = level_[0][b];
+    const State<D>& before = level_[1][b];  // weighted by a2, which is 0 in the first step
+    History<D>& h = history_[b];
+    h.resize(block.extent.size);
+    for_each_index<D>({}, block.extent.n, [&](const std::array<int, D>& index) {
+      const auto c = static_cast<std::size_t>(block.extent.at(index));
+      const double reference = block.reference_pressure[c];
+      h.mass[c] = fluid.inverse_c2 * (s.a1 * (now.p[c] - reference) + s.a2 * (before.p[c] - reference));
+      const double m1 = s.a1 * fluid.rho(now.p[c]), m2 = s.a2 * fluid.rho(before.p[c]);
+      for (std::size_t k = 0; k < D; ++k) h.momentum[k][c] = m1 * now.u[k][c] + m2 * before.u[k][c];
+      if (!source_) return;
+      const Source<D> source = source_(centre(block, c), t);
+      h.mass[c] -= source.mass;
+      for (std::size_t k = 0; k < D; ++k) h.momentum[k][c] -= source.momentum[k];
+    });
+  }
+}
+
+template <int D>
+StepReport Stepper<D>::advance(double dt, const std::vector<Imposed<D>>& imposed) {
+  if (!(dt > 0.0) || !std::isfinite(dt)) throw StabilityError("a time step of " + std::to_string(dt) + " s");
+  const BackwardDifference s = scheme(dt);
+  const double t = time_ + dt;
+  set_history(s, t);
+
+  const double w = known_ > 1 ? dt / dt_[0] : 0.0;
+  std::vector<State<D>> next = std::move(level_[3]);
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    next[b].p = level_[0][b].p;
+    for (std::size_t k = 0; k < D; ++k)
+      for (std::size_t c = 0; c < next[b].p.size(); ++c)
+        next[b].u[k][c] = level_[0][b].u[k][c] + w * (level_[0][b].u[k][c] - level_[1][b].u[k][c]);
+    if (b < imposed.size()) {
+      const Imposed<D>& values = imposed[b];
+      for (std::size_t i = 0; i < values.cell.size(); ++i) {
+        next[b].p[values.cell[i]] = values.p[i];
+        for (std::size_t k = 0; k < D; ++k) next[b].u[k][values.cell[i]] = values.u[k][i];
+      }
+    }
+    evaluate_windows(blocks_[b], equations_, t);
+  }
+  level_[3] = std::move(level_[2]);
+  level_[2] = std::move(level_[1]);
+  level_[1] = std::move(level_[0]);
+  level_[0] = std::move(next);
+  for (std::size_t k = 3; k > 0; --k) dt_[k] = dt_[k - 1];
+  dt_[0] = dt;
+  known_ = std::min(known_ + 1, 4);
+  time_before_ = time_;
+  time_ = t;
+  ++steps_;
+
+  const StepProblem<D> problem{blocks_, equations_, s, history_, forcing_};
+  StepReport report = inner_->solve(problem, tolerance_, level_[0]);
+  check(dt);
+  return report;
+}
+
+template <int D>
+void Stepper<D>::restore() {
+  std::vector<State<D>> spare = std::move(level_[0]);
+  for (std::size_t k = 0; k < 3; ++k) {
+    level_[k] = std::move(level_[k + 1]);
+    dt_[k] = dt_[k + 1];
+  }
+  level_[3] = std::move(spare);
+  // the oldest level was overwritten if the ring was full; what a step and its derivative need is still there
+  known_ = std::min(known_ - 1, 3);
+  time_ = time_before_;
+  --steps_;
+  for (auto& block : blocks_) evaluate_windows(block, equations_, time_);
+}
+
+template <int D>
+void Stepper<D>::time_derivative(std::size_t b, State<D>& rate) const {
+  const Block<D>& block = blocks_[b];
+  const State<D>& now = level_[0][b];
+  rate.resize(block.extent.size);
+  if (known_ > 1) {
+    const BackwardDifference s = known_ > 2 ? BackwardDifference::second_order(dt_[0], dt_[1])
+                                            : BackwardDifference::first_order(dt_[0]);
+    const auto combine = [&](Field& out, const Field& q0, const Field& q1, const Field& q2) {
+      for (std::size_t c = 0; c < out.size(); ++c) out[c] = s.a0 * q0[c] + s.a1 * q1[c] + s.a2 * q2[c];
+    };
+    combine(rate.p, now.p, level_[1][b].p, level_[2][b].p);
+    for (std::size_t k = 0; k < D; ++k) combine(rate.u[k], now.u[k], level_[1][b].u[k], level_[2][b].u[k]);
+    return;
+  }
+  History<D> none;
+  none.resize(block.extent.size);
+  Residual<D> r;
+  equations_.residual(block, now, BackwardDifference::steady(), none, Forcing<D>{}, r);
+  const Fluid<D>& fluid = equations_.fluid;
+  for_each_index<D>({}, block.extent.n, [&](const std::array<int, D>& index) {
+    const auto c = static_cast<std::size_t>(block.extent.at(index));
+    // without a pressure in balance the incompressible residual is no acceleration: leave the rates at 0
+    if (fluid.inverse_c2 == 0.0) return;
+    const double density_rate = -r.mass[c] / block.volume[c];
+    rate.p[c] = density_rate / fluid.inverse_c2;
+    for (std::size_t k = 0; k < D; ++k)
+      rate.u[k][c] = (-r.momentum[k][c] / block.volume[c] - now.u[k][c] * density_rate) / fluid.rho(now.p[c]);
+  });
+}
+
+template <int D>
+void Stepper<D>::recall(const Memory& memory) {
+  level_ = memory.level;
+  dt_ = memory.dt;
+  known_ = memory.known;
+  steps_ = memory.steps;
+  time_ = memory.time;
+  for (auto& block : blocks_) evaluate_windows(block, equations_, time_);
+}
+
+template <int D>
+void Stepper<D>::check(double dt) const {
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const Block<D>& block = blocks_[b];
+    const State<D>& q = level_[0][b];
+    for_each_index<D>({}, block.extent.n, [&](const std::array<int, D>& index) {
+      const auto c = static_cast<std::size_t>(block.extent.at(index));
+      double sum = q.p[c];
+      for (std::size_t k = 0; k < D; ++k) sum += q.u[k][c];
+      const double rho = equations_.fluid.rho(q.p[c]);
+      if (std::isfinite(sum) && rho > 0.0) return;
+      std::string cell, place;
+      for (std::size_t d = 0; d < D; ++d) {
+        char number[32];
+        std::snprintf(number, sizeof number, "%s%.4g", d ? ", " : "", block.centre[d][c]);
+        cell += (d ? "," : "") + std::to_string(index[d]);
+        place += number;
+      }
+      char text[256];
+      std::snprintf(text, sizeof text,
+                    "t = %.6g s: density %.3g kg/m^3, p = %.3g Pa in block '%s' cell (%s) at (%s) m. ", time_,
+                    rho, q.p[c], block.name.c_str(), cell.c_str(), place.c_str());
+      char advice[160];
+      std::snprintf(advice, sizeof advice,
+                    "dt was %.3g s; try a smaller step, a smaller dual_time.pseudo_cfl, or the limiter.", dt);
+      throw StabilityError(std::string(text) + advice);
+    });
+  }
+}
+
+template class Stepper<2>;
+template class Stepper<3>;
+
+}  // namespace littoral::fv

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "dual_time/step_solver.hpp"
+
+namespace littoral::fv {
+
+/// Values imposed on cells of one block (fringe cells, or ghosts behind a fringe window).
+template <int D>
+struct Imposed {
+  std::vector<std::size_t> cell;  // offsets
+  Field p;                        // [Pa] (cell.size())
+  VectorField<D> u;               // [m/s]
+};
+
+/// p [Pa] and u at a place and time.
+template <int D>
+struct PointState {
+  double p = 0.0;
+  std::array<double, D> u{};
+};
+template <int D>
+using FlowFunction = std::function<PointState<D>(const std::array<double, D>& x, double t)>;
+/// Source per volume of the mass row [kg/(m^3 s)] and of the momentum rows [N/m^3].
+template <int D>
+struct Source {
+  double mass = 0.0;
+  std::array<double, D> momentum{};
+};
+template <int D>
+using SourceFunction = std::function<Source<D>(const std::array<double, D>& x, double t)>;
+
+/// Steps all blocks in time: BDF2, started by BDF1, each step solved by the inner solver.
+/// Keeps the levels before the last step, so that it can be undone and repeated with other fringe values.
+template <int D>
+class Stepper {
+ public:
+  Stepper(std::vector<Block<D>> blocks, const Equations<D>& equations, std::unique_ptr<StepSolver<D>> inner,
+          const InnerTolerance& tolerance);
+
+  /// Sets the state everywhere from a formula, at time t; forgets older levels.
+  void initialise(const FlowFunction<D>& flow, double t);
+  void set_source(SourceFunction<D> source) { source_ = std::move(source); }
+
+  /// One step from time() to time() + dt. Fringe cells get `imposed` (one entry a block; empty: as they are),
+  /// the values at the new time. Starts from extrapolated u and p = p^n (extrapolating p too lets forces
+  /// flip from step to step).
+  /// throws StabilityError naming block, cell, place, time, dt where the state is no longer finite or the
+  /// density no longer positive
+  StepReport advance(double dt, const std::vector<Imposed<D>>& imposed = {});
+  /// Back to before the last advance. Once per advance.
+  void restore();
+
+  /// Time derivative of p and u at time(): the backward difference; before the first step from the field
+  /// equations (p: 0 where c is infinite, since p then has no equation of its own).
+  void time_derivative(std::size_t block, State<D>& rate) const;
+
+  double time() const { return time_; }
+  double last_dt() const { return dt_[0]; }
+  long steps() const { return steps_; }
+  std::vector<Block<D>>& blocks() { return blocks_; }
+  const std::vector<Block<D>>& blocks() const { return blocks_; }
+  const Equations<D>& equations() const { return equations_; }
+  /// Current state, ghosts current.
+  std::vector<State<D>>& state() { return level_[0]; }
+  const std::vector<State<D>>& state() const { return level_[0]; }
+  /// Forcing of (21) for the coming steps, one entry a block.
+  std::vector<Forcing<D>>& forcing() { return forcing_; }
+  InnerTolerance& tolerance() { return tolerance_; }
+
+  /// Everything that a bitwise continuation needs, besides blocks and equations.
+  struct Memory {
+    std::array<std::vector<State<D>>, 4> level;
+    std::array<double, 4> dt{};
+    int known = 0;
+    long steps = 0;
+    double time = 0.0;
+  };
+  Memory memory() const { return {level_, dt_, known_, steps_, time_}; }
+  void recall(const Memory& memory);
+
+ private:
+  BackwardDifference scheme(double dt) const;
+  void set_history(const BackwardDifference& scheme, double t);
+  void check(double dt) const;
+
+  std::vector<Block<D>> blocks_;
+  Equations<D> equations_;
+  std::unique_ptr<StepSolver<D>> inner_;
+  InnerTolerance tolerance_;
+  SourceFunction<D> source_;
+  std::vector<Forcing<D>> forcing_;
+  std::vector<History<D>> history_;
+  // q^n, q^n-1, q^n-2, and one more so that a restored step still knows its derivative
+  std::array<std::vector<State<D>>, 4> level_;
+  std::array<double, 4> dt_{};  // [s] dt_[k] = t^n-k - t^n-k-1
+  int known_ = 0;               // levels that hold a state
+  long steps_ = 0;
+  double time_ = 0.0;  // [s] t^n
+  double time_before_ = 0.0;
+};
+
+}  // namespace littoral::fv
