@@ -63,6 +63,7 @@ def collect(out, scene, job):
     summary = {"scene": scene.name, "title": scene.data.get("title", scene.name), "folder": str(scene.folder),
                "settings": scene.settings, **job, "results": results,
                "programs": {p: read_json(out / p / "summary.json") for p in scene.programs}}
+    summary["regions"] = scene.regions()
     reference = scene.reference()
     if reference:
         summary["reference"] = reference

@@ -78,16 +78,20 @@ def execute(line, env, on_line=None, timeout=None, cwd=None):
 
 
 def end(job):
-    """Ends the job's process group: politely, then for good."""
-    for kind in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
+    """Ends the job's process group: politely, then for good, with any child that stayed behind."""
+    for kind in (signal.SIGINT, signal.SIGTERM):
         try:
             os.killpg(job.pid, kind)
             job.wait(timeout=GRACE)
-            return
+            break
         except ProcessLookupError:
-            return
+            break
         except subprocess.TimeoutExpired:
             continue
+    try:
+        os.killpg(job.pid, signal.SIGKILL)
+    except ProcessLookupError:
+        pass
 
 
 def own_words(lines):

@@ -102,6 +102,12 @@ class Scene:
             node = node[key]
         return evaluate(node, self.constants())
 
+    def regions(self):
+        """The SPH region's boxes as numbers."""
+        constants = self.constants()
+        return [{corner: [evaluate(v, constants) for v in region[corner]] for corner in ("lower", "upper")}
+                for region in self.data.get("regions") or []]
+
     def reference(self):
         """reference.yaml beside the scene, with its formulas evaluated; None if the scene has none."""
         path = self.folder / "reference.yaml"

@@ -23,17 +23,22 @@ def mean_period(time, signal):
 
 
 def peaks(time, signal, window):
-    """(times, values) of the local maxima that are the largest within +-window, by a parabola through each."""
+    """(times, values) of the maxima that are the largest within +-window; a parabola through +-window/3 places them.
+
+    Maxima closer than `window` to either end of the record are left out.
+    """
     times, values = [], []
     for i in range(1, len(time) - 1):
-        near = np.abs(time - time[i]) <= window
-        if signal[i] >= signal[near].max() and time[i] - window >= time[0] and time[i] + window <= time[-1]:
-            fit = np.polyfit(time[near] - time[i], signal[near], 2) if near.sum() > 3 and window > 0 else None
-            three = np.polyfit(time[i - 1:i + 2] - time[i], signal[i - 1:i + 2], 2)
-            a, b, c = three if fit is None or fit[0] >= 0 else three
-            shift = -b / (2 * a) if a < 0 else 0.0
-            times.append(time[i] + shift)
-            values.append(c - b * b / (4 * a) if a < 0 else signal[i])
+        if time[i] - window < time[0] or time[i] + window > time[-1]:
+            continue
+        if signal[i] < signal[np.abs(time - time[i]) <= window].max() or signal[i] == signal[i - 1]:
+            continue
+        near = np.abs(time - time[i]) <= window / 3
+        near[i - 1:i + 2] = True
+        a, b, c = np.polyfit(time[near] - time[i], signal[near], 2)
+        if a < 0:
+            times.append(time[i] - b / (2 * a))
+            values.append(c - b * b / (4 * a))
     return np.array(times), np.array(values)
 
 

@@ -1,0 +1,82 @@
+"""The mpirun line, restart files, and whole jobs with a stand-in for mpirun's programs."""
+
+import os
+import pathlib
+import stat
+import sys
+import tempfile
+import time
+import types
+import unittest
+
+import tools_path  # noqa: F401
+from littoral_lib import launch, run
+from littoral_lib.errors import UserError
+
+
+class Jobs(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.folder = pathlib.Path(self.temporary.name)
+        for program in ("sph", "fv"):
+            path = self.folder / f"{program}_solver"
+            path.write_text("#!/bin/sh\nexit 0\n")
+            path.chmod(path.stat().st_mode | stat.S_IXUSR)
+
+    def tearDown(self):
+        self.temporary.cleanup()
+
+    def scene(self, programs, settings=()):
+        return types.SimpleNamespace(programs=programs, settings=list(settings), folder=self.folder)
+
+    def line(self, *args, **kwargs):
+        return launch.mpi_line(*args, bin_dir=self.folder, **kwargs)
+
+    def test_two_programs_make_one_mpmd_line(self):
+        line = self.line(self.scene(["sph", "fv"], ["fv.a=1"]), "out", {"sph": 2, "fv": 3})
+        middle = line.index(":")
+        sph, fv = line[:middle], line[middle:]
+        self.assertIn(str(self.folder / "sph_solver"), sph)
+        self.assertEqual(sph[sph.index("-n") + 1], "2")
+        self.assertEqual(fv[fv.index("-n") + 1], "3")
+        self.assertEqual(fv[fv.index("--set") + 1], "a=1")
+        self.assertNotIn("--set", sph)
+
+    def test_one_program_is_a_plain_line(self):
+        self.assertNotIn(":", self.line(self.scene(["fv"]), "out", {"sph": 1, "fv": 1}))
+
+    def test_a_missing_program_says_how_to_build(self):
+        (self.folder / "fv_solver").unlink()
+        with self.assertRaisesRegex(UserError, "cmake --build"):
+            self.line(self.scene(["fv"]), "out", {"sph": 1, "fv": 1})
+
+    def test_restart_takes_a_window_both_have(self):
+        for program, windows in (("sph", (10, 20, 30)), ("fv", (10, 20))):
+            (self.folder / program).mkdir()
+            for window in windows:
+                (self.folder / program / f"checkpoint_{window:06d}.h5").touch()
+        scene = self.scene(["sph", "fv"])
+        self.assertIn("20", run.restart_files(scene, self.folder, "latest")["sph"].name)
+        self.assertIn("10", run.restart_files(scene, self.folder, "10")["fv"].name)
+        with self.assertRaisesRegex(UserError, "10, 20"):
+            run.restart_files(scene, self.folder, "30")
+
+    def test_a_job_that_outlives_its_time_is_ended_with_its_children(self):
+        begin = time.monotonic()
+        result = launch.execute(["sh", "-c", "sleep 60 & wait"], dict(os.environ), timeout=0.3)
+        self.assertEqual(result.status, 124)
+        self.assertLess(time.monotonic() - begin, 10)
+
+    def test_output_and_status_come_back(self):
+        seen = []
+        result = launch.execute([sys.executable, "-c", "print('sph: one'); raise SystemExit(3)"], dict(os.environ),
+                                seen.append)
+        self.assertEqual((result.status, seen), (3, ["sph: one"]))
+
+    def test_own_words_leave_out_the_boxes_of_mpirun(self):
+        box = ["-" * 40, "mpirun detected that a process exited", "-" * 40]
+        self.assertEqual(launch.own_words(["fv: error: no", *box, ""]), ["fv: error: no"])
+
+
+if __name__ == "__main__":
+    unittest.main()

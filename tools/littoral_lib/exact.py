@@ -1,0 +1,179 @@
+"""Exact solutions the tools compare with: linear standing waves over a free-slip bottom, with viscosity.
+
+Linearised Navier-Stokes on -H < z < 0 with u = grad phi + rot psi, phi harmonic and psi diffusing. The surface
+conditions (no shear, p = 2 rho nu w_z), Laplace transformed in time with an irrotational start, give
+
+    D(s) = (s + 2 nu k^2)^2 + g k T - 4 nu^2 k^3 m T coth(m H),   m^2 = k^2 + s/nu,   T = tanh(k H)
+    eta_hat = a0/s + (w0 - g k T a0/s) / D(s)
+
+with a0 the elevation and w0 the vertical velocity of the surface at t = 0, both times cos(kx). D(s) = 0 is the
+dispersion relation of the normal modes (Lamb 1932, art. 349, here for finite depth). The inverse is the residue
+of the two oscillating modes plus a remainder with poles on the negative real axis only (diffusing vorticity), which
+a Talbot contour integrates (Abate & Valko 2004).
+"""
+
+import cmath
+import math
+
+import numpy as np
+
+TALBOT_NODES = 24  # about 10 digits in double precision; more nodes lose digits to cancellation
+
+
+def inviscid_frequency(wavenumber, depth, gravity):
+    """omega_0 of a linear gravity wave [1/s]."""
+    return math.sqrt(gravity * wavenumber * math.tanh(wavenumber * depth))
+
+
+def normal_mode(wavenumber, depth, gravity, viscosity):
+    """Complex rate s of the oscillating normal mode, Im s > 0: elevation ~ exp(s t) [1/s]."""
+    k, nu = wavenumber, viscosity
+    tanh = math.tanh(k * depth)
+    s = complex(-2 * nu * k * k, inviscid_frequency(k, depth, gravity))
+    if nu == 0.0:
+        return complex(0.0, s.imag)
+    for _ in range(50):
+        value, slope = dispersion(s, k, depth, gravity, nu, tanh)
+        step = value / slope
+        s -= step
+        if abs(step) < 1e-15 * abs(s):
+            break
+    return s
+
+
+def dispersion(s, k, depth, gravity, nu, tanh):
+    """D(s) and dD/ds; s may be an array."""
+    m = np.sqrt(k * k + np.asarray(s, dtype=complex) / nu)
+    coth = 1.0 / np.tanh(m * depth)
+    friction = 2 * nu * k * k
+    value = (s + friction) ** 2 + gravity * k * tanh - 4 * nu**2 * k**3 * tanh * m * coth
+    slope_of_m = coth + m * depth * (1.0 - coth * coth)  # d(m coth mH)/dm, with 1/sinh^2 = coth^2 - 1
+    slope = 2 * (s + friction) - 4 * nu**2 * k**3 * tanh * slope_of_m / (2 * nu * m)
+    return value, slope
+
+
+class StandingWave:
+    """Linear standing wave eta(t) cos(kx) that starts from rest level (or `elevation`) with a potential flow.
+
+    amplitude: that of the inviscid wave [m]; the start is w = amplitude omega_0 cos(kx) at a flat surface.
+    """
+
+    def __init__(self, amplitude, wavenumber, depth, gravity, viscosity=0.0, density=1.0, elevation=0.0):
+        self.k, self.depth, self.g, self.nu, self.rho = wavenumber, depth, gravity, viscosity, density
+        self.omega0 = inviscid_frequency(wavenumber, depth, gravity)
+        self.period0 = 2 * math.pi / self.omega0
+        self.tanh = math.tanh(wavenumber * depth)
+        self.w0 = amplitude * self.omega0
+        self.a0 = elevation
+        self.mode = normal_mode(wavenumber, depth, gravity, viscosity)
+
+    @property
+    def period(self):
+        """Of the oscillating mode [s]."""
+        return 2 * math.pi / self.mode.imag
+
+    @property
+    def mode_energy_kept(self):
+        """Factor on the energy of the normal mode in one inviscid period."""
+        return math.exp(2 * self.mode.real * self.period0)
+
+    def elevation(self, time):
+        """eta(t) at the antinode [m]."""
+        if self.nu == 0.0:
+            return self._inviscid(time)[0]
+        return self.a0 + self._invert(self._surface, time)[..., 0]
+
+    def velocity(self, time, z):
+        """(u, w) amplitudes, of -sin(kx) and cos(kx): two arrays (n_time, n_z) [m/s]."""
+        z = np.atleast_1d(np.asarray(z, dtype=float))
+        if self.nu == 0.0:
+            up, across = hyperbolic_ratios(np.asarray(complex(self.k)), z, self.depth)
+            rise = self._inviscid(time)[1][:, None]
+            return rise * across.real, rise * up.real
+        both = self._invert(lambda s: np.concatenate(self._flow(s, z), axis=-1), time)
+        return both[..., :len(z)], both[..., len(z):]
+
+    def kinetic_energy(self, time, length):
+        """Of the water between x = 0 and `length` (whole wavelengths), per metre of width [J/m]."""
+        nodes, weights = np.polynomial.legendre.leggauss(80)
+        # t in (0, 1) squared crowds the points at the surface, where the vorticity layer is
+        share = 0.5 * (nodes + 1)
+        z = -self.depth * share**2
+        weight = self.depth * weights * share
+        u, w = self.velocity(time, z)
+        return 0.25 * self.rho * length * ((u**2 + w**2) * weight).sum(axis=-1)
+
+    def potential_energy(self, time, length):
+        """Above that of water at rest [J/m]."""
+        return 0.25 * self.rho * self.g * length * self.elevation(time) ** 2
+
+    def energy(self, time, length):
+        return self.kinetic_energy(time, length) + self.potential_energy(time, length)
+
+    # Transforms: numerators over the denominator D(s), and the part without poles at the modes.
+
+    def _drive(self, s):
+        return self.w0 - self.g * self.k * self.tanh * self.a0 / s
+
+    def _surface(self, s):
+        s = np.asarray(s, dtype=complex)[..., None]
+        return self._drive(s) / self._dispersion(s)[0]
+
+    def _dispersion(self, s):
+        return dispersion(s, self.k, self.depth, self.g, self.nu, self.tanh)
+
+    def _flow(self, s, z):
+        """Transforms of u and w at the heights z: potential part and vortical layer."""
+        k, h = self.k, self.depth
+        s = np.asarray(s, dtype=complex)[..., None]
+        friction = 2 * self.nu * k * k
+        # A sinh(kH): the potential's strength at the surface; -friction/(s + friction) of it is the layer's
+        strength = (s + friction) * self._drive(s) / (k * self._dispersion(s)[0])
+        layer = -friction / (s + friction) * strength
+        m = np.sqrt(k * k + s / self.nu)
+        sinh_ratio, cosh_ratio = hyperbolic_ratios(m, z, h)
+        up, across = hyperbolic_ratios(np.asarray([complex(k)]), z, h)
+        return k * strength * across + layer * m * cosh_ratio, k * (strength * up + layer * sinh_ratio)
+
+    def _invert(self, transform, time):
+        """f(t) of F(s); F may have a last axis of its own. Poles at the two modes are taken out by residues."""
+        time = np.atleast_1d(np.asarray(time, dtype=float))
+        s1 = self.mode
+        residue = self._residue(transform, s1)
+        return np.array([self._at(transform, residue, s1, t) for t in time])
+
+    def _residue(self, transform, s1):
+        """Residue of F at s1, from a small circle around it (exact for an analytic remainder)."""
+        radius = 0.02 * abs(s1.imag)
+        angles = 2 * math.pi * (np.arange(32) + 0.5) / 32
+        circle = s1 + radius * np.exp(1j * angles)
+        return (transform(circle) * (circle - s1)[:, None]).mean(axis=0)
+
+    def _at(self, transform, residue, s1, t):
+        wave = 2 * (residue * cmath.exp(s1 * t)).real
+        if t == 0.0:
+            t = 1e-9 * self.period0  # the remainder is continuous there; the contour needs t > 0
+            wave = 2 * (residue * cmath.exp(s1 * t)).real
+        radius = 2 * TALBOT_NODES / (5 * t)
+        theta = np.arange(1, TALBOT_NODES) * math.pi / TALBOT_NODES
+        cot = 1 / np.tan(theta)
+        nodes = np.concatenate([[complex(radius)], radius * theta * (cot + 1j)])
+        slope = np.concatenate([[0.5], 1 + 1j * theta * (1 + cot**2) - 1j * cot])
+        pair = residue / (nodes[:, None] - s1) + residue.conj() / (nodes[:, None] - s1.conjugate())
+        remainder = transform(nodes) - pair
+        return wave + (radius / TALBOT_NODES) * (np.exp(nodes * t)[:, None] * remainder * slope[:, None]).sum(0).real
+
+    def _inviscid(self, time):
+        """Elevation and its rate without viscosity."""
+        phase = self.omega0 * np.atleast_1d(np.asarray(time, dtype=float))
+        swing = self.w0 / self.omega0
+        return (self.a0 * np.cos(phase) + swing * np.sin(phase),
+                self.omega0 * (swing * np.cos(phase) - self.a0 * np.sin(phase)))
+
+
+def hyperbolic_ratios(m, z, depth):
+    """sinh(m(z+H))/sinh(mH) and cosh(m(z+H))/sinh(mH) without overflow; m (..., 1), z (n) -> (..., n)."""
+    fall = np.exp(m * z)                       # |fall| <= 1: z <= 0, Re m >= 0
+    echo = np.exp(-m * (z + 2 * depth))
+    below = 1 - np.exp(-2 * m * depth)
+    return (fall - echo) / below, (fall + echo) / below

@@ -1,0 +1,195 @@
+"""littoral plot: the standard pictures of a run."""
+
+import pathlib
+
+import numpy as np
+
+from . import compare, tables
+from .collect import read_json
+from .errors import UserError
+from .moment import BLANKED, Moments
+
+COLOURS = {"sph": "#c1272d", "fv": "#0b5394", "all": "#222222"}
+NAMES = {"sph": "SPH particles", "fv": "FV cells"}
+
+
+def pyplot():
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+    plt.rcParams.update({"font.size": 9, "axes.spines.top": False, "axes.spines.right": False,
+                         "legend.frameon": False, "figure.dpi": 110, "savefig.bbox": "tight"})
+    return plt
+
+
+class Picture:
+    """What the panels of a run share: its files, its scene's interface, its reference."""
+
+    def __init__(self, out):
+        self.out = pathlib.Path(out)
+        self.summary = read_json(self.out / "summary.json")
+        if self.summary is None:
+            raise UserError(f"{out}: no summary.json; is this a folder that 'littoral run' wrote?")
+        self.wave = None
+        if (self.summary.get("reference") or {}).get("solution") == "standing_wave":
+            self.wave = compare.StandingWaveRun(self.out)
+        self.moments = None
+        try:
+            self.moments = Moments(self.out)
+        except UserError:
+            pass
+        self.regions = self.summary.get("regions") or []
+
+    def scalars(self):
+        path = self.out / "scalars.csv"
+        return tables.read_csv(path) if path.is_file() else None
+
+    # Panels, each into given axes.
+
+    def elevation(self, axes):
+        wave = self.wave
+        t = np.linspace(1e-6, wave.gauge_time[-1], 600)
+        scale = wave.reference["amplitude"]
+        period = wave.wave.period0
+        axes.plot(t / period, wave.wave.elevation(t) / scale, color="#888888", lw=3, label="exact (linear, viscous)")
+        axes.plot(wave.gauge_time / period, wave.elevation / scale, color=COLOURS["sph"], lw=1, label="computed")
+        axes.set(xlabel="time / inviscid period", ylabel="elevation at x = 0 / a")
+        axes.legend(loc="upper right", ncol=2)
+
+    def energy(self, axes):
+        wave = self.wave
+        t = np.linspace(1e-6, wave.time[-1], 300)
+        period, start = wave.wave.period0, wave.energy[0]
+        exact_energy = wave.wave.energy(np.append(0.0, t), wave.length)
+        exact_kinetic = wave.wave.kinetic_energy(t, wave.length)
+        axes.plot(np.append(0, t) / period, exact_energy / exact_energy[0], color="#888888", lw=3, label="exact")
+        axes.plot(t / period, exact_kinetic / exact_energy[0], color="#cccccc", lw=2.5)
+        axes.plot(wave.time / period, wave.energy / start, color=COLOURS["all"], lw=1, label="total")
+        axes.plot(wave.time / period, wave.kinetic / start, color=COLOURS["fv"], lw=1, label="kinetic")
+        axes.set(xlabel="time / inviscid period", ylabel="energy / initial energy", ylim=(0, None))
+        axes.legend(loc="upper right", ncol=3)
+
+    def history(self, axes):
+        scalars = self.scalars()
+        if scalars is None:
+            return
+        for name in ("kinetic_energy", "potential_energy"):
+            if name in scalars:
+                values = scalars[name] - (scalars[name][0] if name.startswith("pot") else 0)
+                axes.plot(scalars["time"], values, lw=1, label=name.replace("_", " "))
+        axes.set(xlabel="time [s]", ylabel="energy [J] (potential: change)")
+        axes.legend(loc="upper right")
+
+    def field(self, axes, time, figure):
+        parts = self.moments.at(time)
+        top = max(float(part.speed.max()) for part in parts.values()) or 1.0
+        drawn = None
+        if "fv" in parts:
+            part = parts["fv"]
+            shown = part.pick(part.status != BLANKED) if part.status is not None else part
+            shown = middle(shown)
+            drawn = axes.scatter(shown.x[:, 0], shown.x[:, 2], c=shown.speed, s=cell_size(shown.x, axes), marker="s",
+                                 cmap="viridis", vmin=0, vmax=top, linewidths=0)
+        if "sph" in parts:
+            shown = middle(parts["sph"])
+            drawn = axes.scatter(shown.x[:, 0], shown.x[:, 2], c=shown.speed, s=0.55 * cell_size(shown.x, axes),
+                                 cmap="viridis", vmin=0, vmax=top, linewidths=0)
+        for region in self.regions:
+            (x0, _, z0), (x1, _, z1) = region["lower"], region["upper"]
+            axes.plot([x0, x1, x1, x0, x0], [z0, z0, z1, z1, z0], color="k", lw=0.8, ls="--")
+        axes.set_aspect("equal")
+        axes.set(xlabel="x [m]", ylabel="z [m]", title=f"t = {parts[next(iter(parts))].time:.3g} s: "
+                 "SPH particles (dots), FV cells (squares), nominal faces of the SPH region (dashed)")
+        axes.title.set_fontsize(9)
+        figure.colorbar(drawn, ax=axes, label="|u| [m/s]", fraction=0.03, pad=0.01)
+
+    def profile(self, axes, time, quantity, x_line, label):
+        """Values on the vertical line x = x_line, of particles within half a spacing and of the nearest column."""
+        parts = self.moments.at(time)
+        for program, part in parts.items():
+            shown = middle(part)
+            width = np.abs(shown.x[:, 0] - x_line)
+            dx = spacing(shown.x)
+            near = width <= (width.min() + 0.01 * dx if program == "fv" else dx)
+            if program == "fv" and shown.status is not None:
+                near &= shown.status != BLANKED
+            order = np.argsort(shown.x[near, 2])
+            axes.plot(quantity(shown)[near][order], shown.x[near, 2][order], marker="s" if program == "fv" else "o",
+                      ls="-" if program == "fv" else "", ms=3.5 if program == "fv" else 2.5, lw=0.8,
+                      mfc="none" if program == "fv" else None, color=COLOURS[program], label=NAMES[program])
+        for region in self.regions:
+            axes.axhline(region["lower"][2], color="k", lw=0.8, ls="--")
+        axes.set(xlabel=label, ylabel="z [m]")
+
+
+def spacing(x):
+    """Typical distance of neighbours, from area (or volume) per point."""
+    spans = [np.ptp(x[:, i]) for i in range(3)]
+    active = [s for s in spans if s > 1e-9 * max(spans)]
+    return (np.prod(active) / len(x)) ** (1 / len(active))
+
+
+def middle(part):
+    """In 3-D the points of the slice in the middle of y; in 2-D all of them."""
+    y = part.x[:, 1]
+    if np.ptp(y) < 1e-9 * np.ptp(part.x[:, 0]):
+        return part
+    return part.pick(np.abs(y - 0.5 * (y.min() + y.max())) <= 0.6 * spacing(part.x))
+
+
+def cell_size(x, axes):
+    """Marker area in points^2 for squares that touch, roughly, at the width of the axes."""
+    width = axes.get_window_extent().width * 72 / axes.figure.dpi
+    return (width * spacing(x) / np.ptp(x[:, 0])) ** 2 * 0.9
+
+
+def overview(picture, time, path):
+    plt = pyplot()
+    figure = plt.figure(figsize=(10, 7.6))
+    grid = figure.add_gridspec(2, 2, height_ratios=[1, 1.55], hspace=0.28, wspace=0.2)
+    if picture.wave:
+        picture.elevation(figure.add_subplot(grid[0, 0]))
+        picture.energy(figure.add_subplot(grid[0, 1]))
+    else:
+        picture.history(figure.add_subplot(grid[0, :]))
+    if picture.moments:
+        picture.field(figure.add_subplot(grid[1, :]), time, figure)
+    figure.suptitle(picture.summary.get("title", ""), fontsize=10, y=0.94)
+    figure.savefig(path)
+    plt.close(figure)
+
+
+def profiles(picture, time, path):
+    """p and u on a vertical line through the interface: any kink shows here."""
+    plt = pyplot()
+    figure, axes = plt.subplots(1, 3, figsize=(10, 4), sharey=True)
+    part = picture.moments.at(time)
+    x = np.concatenate([p.x[:, 0] for p in part.values()])
+    left, right = x.min(), x.max()
+    antinode, quarter = left, left + 0.25 * (right - left)
+    picture.profile(axes[0], time, lambda p: p.p, antinode, f"p [Pa] at x = {antinode:.3g} m")
+    picture.profile(axes[1], time, lambda p: p.u[:, 2], antinode, f"w [m/s] at x = {antinode:.3g} m")
+    picture.profile(axes[2], time, lambda p: p.u[:, 0], quarter, f"u [m/s] at x = {quarter:.3g} m")
+    axes[0].legend(loc="best")
+    figure.suptitle(f"{picture.summary.get('title', '')}, t = {time:.3g} s", fontsize=10)
+    figure.savefig(path)
+    plt.close(figure)
+
+
+def command(args):
+    picture = Picture(args.dir)
+    folder = pathlib.Path(args.out) if args.out else picture.out / "plots"
+    folder.mkdir(parents=True, exist_ok=True)
+    time = args.time
+    if picture.moments and time is None:
+        time = picture.moments.most_lively()
+    overview(picture, time, folder / "overview.png")
+    pictures = [folder / "overview.png"]
+    if picture.moments:
+        profiles(picture, time, folder / "profiles.png")
+        pictures.append(folder / "profiles.png")
+    if picture.wave:
+        print(compare.table(picture.wave.measures()))
+    for path in pictures:
+        print(path)
+    return 0
