@@ -39,6 +39,8 @@ template <int D>
 void NeighborList<D>::build(const Particles<D>& particles) {
   const std::size_t n_all = particles.size();
   const std::size_t n = particles.n_owned;
+  revision_ = particles.revision;
+  built_ = true;
   grid_.bin(particles.x, n_all, reach() / k_cells_per_reach);
   const auto& order = grid_.order();
   for (std::size_t d = 0; d < D; ++d) {
@@ -87,7 +89,7 @@ void NeighborList<D>::build(const Particles<D>& particles) {
 
 template <int D>
 bool NeighborList<D>::outdated(const Particles<D>& particles) const {
-  if (n_rows() != particles.n_owned) return true;
+  if (!built_ || revision_ != particles.revision) return true;
   const auto n = static_cast<std::ptrdiff_t>(particles.n_owned);
   double most = 0.0;
 #pragma omp parallel for schedule(static) reduction(max : most)

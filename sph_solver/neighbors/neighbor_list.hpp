@@ -52,6 +52,8 @@ class NeighborList {
   std::array<std::vector<double>, D> x_at_build_;  // of the owned
   std::vector<std::size_t> start_;
   std::vector<std::int32_t> list_;
+  std::uint64_t revision_ = 0;  // of the particles, at build
+  bool built_ = false;
   CellGrid<D> owned_grid_;
 };
 

@@ -17,6 +17,7 @@ void Particles<D>::resize_ghosts(std::size_t n) {
 
 template <int D>
 void Particles<D>::append(const NewParticle<D>& born) {
+  ++revision;
   drop_ghosts();
   for (std::size_t d = 0; d < D; ++d) {
     x[d].push_back(born.x[d]);
@@ -37,6 +38,7 @@ void Particles<D>::append(const NewParticle<D>& born) {
 
 template <int D>
 void Particles<D>::remove(const std::vector<char>& doomed) {
+  ++revision;
   assert(doomed.size() == n_owned);
   drop_ghosts();
   std::size_t n_kept = 0;
@@ -53,6 +55,7 @@ void Particles<D>::remove(const std::vector<char>& doomed) {
 
 template <int D>
 void Particles<D>::permute(const std::vector<std::int32_t>& order) {
+  ++revision;
   assert(order.size() == n_owned);
   drop_ghosts();
   const auto reorder = [&order](auto& c) {

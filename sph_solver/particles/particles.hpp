@@ -51,7 +51,8 @@ struct Particles {
   /// part of a checkpoint, because the walk from another hint may end in a neighbouring, equally good cell.
   std::vector<std::int64_t> donor_hint;
 
-  std::int64_t next_id = 0;  // of the next particle born on this rank
+  std::int64_t next_id = 0;    // of the next particle born on this rank
+  std::uint64_t revision = 0;  // counts changes of who is owned and where: lists of another revision are void
 
   std::size_t size() const { return n_owned + n_ghost; }
 

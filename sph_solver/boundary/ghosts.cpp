@@ -1,0 +1,171 @@
+#include "boundary/ghosts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "littoral/error.hpp"
+
+namespace littoral::sph {
+namespace {
+
+using Side = support::Scene::Side;
+
+template <int D>
+[[noreturn]] void report_lost(const Particles<D>& particles, std::size_t i, double time, const char* what) {
+  std::ostringstream text;
+  text << "t = " << time << " s: particle " << particles.id[i] << " at (";
+  for (std::size_t d = 0; d < D; ++d) text << (d ? ", " : "") << particles.x[d][i];
+  text << ") m, velocity (";
+  for (std::size_t d = 0; d < D; ++d) text << (d ? ", " : "") << particles.u[d][i];
+  text << ") m/s, " << what << ". Try a lower time.cfl or a smaller spacing.";
+  throw StabilityError(text.str());
+}
+
+}  // namespace
+
+template <int D>
+std::size_t Ghosts<D>::bring_back(Particles<D>& particles, double tolerance, double time) const {
+  std::size_t n_mirrored = 0;
+  for (std::size_t d = 0; d < D; ++d) {
+    const double lower = box_.lower[d], upper = box_.upper[d], length = box_.length(d);
+    auto& x = particles.x[d];
+    for (std::size_t i = 0; i < particles.n_owned; ++i) {
+      if (x[i] >= lower && x[i] < upper) continue;
+      const bool below = x[i] < lower;
+      const double outside = below ? lower - x[i] : x[i] - upper;
+      switch (box_.sides[d][below ? 0 : 1]) {
+        case Side::periodic:
+          if (!(outside < length)) report_lost(particles, i, time, "jumped over the whole periodic domain");
+          x[i] += below ? length : -length;
+          if (x[i] >= upper) x[i] = lower;  // round-off of a value just below the lower face
+          break;
+        case Side::symmetry:
+          if (!(outside <= tolerance)) report_lost(particles, i, time, "went through a symmetry plane");
+          if (outside == 0.0) break;
+          x[i] = 2.0 * (below ? lower : upper) - x[i];
+          particles.u[d][i] = -particles.u[d][i];
+          ++n_mirrored;
+          break;
+        case Side::open:
+          if (!(outside < length))
+            report_lost(particles, i, time, "is lost: further outside than the domain is long");
+          break;
+      }
+    }
+  }
+  return n_mirrored;
+}
+
+template <int D>
+void Ghosts<D>::add(std::size_t parent, std::size_t n_owned, std::size_t d, double sign, double offset) {
+  const bool of_owned = parent < n_owned;
+  const std::size_t g = parent - n_owned;
+  source_.push_back(of_owned ? static_cast<std::int32_t>(parent) : source_[g]);
+  for (std::size_t e = 0; e < D; ++e) {
+    double s = of_owned ? 1.0 : sign_[e][g];
+    double o = of_owned ? 0.0 : offset_[e][g];
+    if (e == d) {
+      s *= sign;
+      o = sign * o + offset;
+    }
+    sign_[e].push_back(s);
+    offset_[e].push_back(o);
+  }
+}
+
+template <int D>
+void Ghosts<D>::create(Particles<D>& particles, double reach) {
+  particles.drop_ghosts();
+  source_.clear();
+  for (std::size_t d = 0; d < D; ++d) {
+    sign_[d].clear();
+    offset_[d].clear();
+  }
+  // A particle may have strayed outside in the middle of a step; its neighbours' copies lie that much further
+  // out.
+  double strayed = 0.0;
+  for (std::size_t d = 0; d < D; ++d) {
+    if (box_.sides[d][0] == Side::open && box_.sides[d][1] == Side::open) continue;
+    for (std::size_t i = 0; i < particles.n_owned; ++i) {
+      if (box_.sides[d][0] != Side::open) strayed = std::max(strayed, box_.lower[d] - particles.x[d][i]);
+      if (box_.sides[d][1] != Side::open) strayed = std::max(strayed, particles.x[d][i] - box_.upper[d]);
+    }
+  }
+  reach += strayed;
+  // Direction after direction, each copying the copies made before it: that fills edges and corners.
+  for (std::size_t d = 0; d < D; ++d) {
+    const double lower = box_.lower[d], upper = box_.upper[d], length = box_.length(d);
+    if (box_.sides[d][0] == Side::open && box_.sides[d][1] == Side::open) continue;
+    const std::size_t n_parents = particles.n_owned + source_.size();
+    for (std::size_t k = 0; k < n_parents; ++k) {
+      const double x = k < particles.n_owned
+                           ? particles.x[d][k]
+                           : sign_[d][k - particles.n_owned] * particles.x[d][source(k - particles.n_owned)] +
+                                 offset_[d][k - particles.n_owned];
+      if (box_.is_periodic(d)) {
+        if (x < lower + reach) add(k, particles.n_owned, d, 1.0, length);
+        if (x > upper - reach) add(k, particles.n_owned, d, 1.0, -length);
+        continue;
+      }
+      if (box_.sides[d][0] == Side::symmetry && x < lower + reach)
+        add(k, particles.n_owned, d, -1.0, 2.0 * lower);
+      if (box_.sides[d][1] == Side::symmetry && x > upper - reach)
+        add(k, particles.n_owned, d, -1.0, 2.0 * upper);
+    }
+  }
+  particles.resize_ghosts(source_.size());
+  for (std::size_t g = 0; g < source_.size(); ++g)
+    particles.m[particles.n_owned + g] = particles.m[source(g)];
+  refresh(particles);
+}
+
+template <int D>
+void Ghosts<D>::refresh(Particles<D>& particles) const {
+  const std::size_t first = particles.n_owned;
+  const auto n = static_cast<std::ptrdiff_t>(source_.size());
+#pragma omp parallel for schedule(static)
+  for (std::ptrdiff_t k = 0; k < n; ++k) {
+    const auto g = static_cast<std::size_t>(k);
+    const std::size_t from = source(g), to = first + g;
+    for (std::size_t d = 0; d < D; ++d) {
+      particles.x[d][to] = sign_[d][g] * particles.x[d][from] + offset_[d][g];
+      particles.u[d][to] = sign_[d][g] * particles.u[d][from];
+    }
+    particles.V[to] = particles.V[from];
+    particles.rho[to] = particles.rho[from];
+    particles.p[to] = particles.p[from];
+  }
+}
+
+template <int D>
+void Ghosts<D>::refresh(Gradients<D>& gradients, std::size_t n_owned) const {
+  const auto n = static_cast<std::ptrdiff_t>(source_.size());
+#pragma omp parallel for schedule(static)
+  for (std::ptrdiff_t k = 0; k < n; ++k) {
+    const auto g = static_cast<std::size_t>(k);
+    const std::size_t from = source(g), to = n_owned + g;
+    for (std::size_t b = 0; b < D; ++b) {
+      gradients.p[b][to] = sign_[b][g] * gradients.p[b][from];
+      for (std::size_t a = 0; a < D; ++a)
+        gradients.u[a][b][to] = sign_[a][g] * sign_[b][g] * gradients.u[a][b][from];
+    }
+  }
+}
+
+template <int D>
+void Ghosts<D>::refresh_scalar(std::vector<double>& column, std::size_t n_owned) const {
+  for (std::size_t g = 0; g < source_.size(); ++g) column[n_owned + g] = column[source(g)];
+}
+
+template <int D>
+void Ghosts<D>::refresh_vector(std::array<std::vector<double>, D>& columns, std::size_t n_owned) const {
+  for (std::size_t d = 0; d < D; ++d)
+    for (std::size_t g = 0; g < source_.size(); ++g)
+      columns[d][n_owned + g] = sign_[d][g] * columns[d][source(g)];
+}
+
+template class Ghosts<2>;
+template class Ghosts<3>;
+
+}  // namespace littoral::sph

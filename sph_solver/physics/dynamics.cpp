@@ -1,0 +1,201 @@
+#include "physics/dynamics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "littoral/error.hpp"
+#include "physics/riemann_fluxes.hpp"
+
+namespace littoral::sph {
+namespace {
+
+/// Classical Runge-Kutta: how far the next stage lies ahead of the start, and the weight of this slope.
+struct RungeKuttaStage {
+  double advance;  // of dt; next state = start + advance dt slope
+  double weight;
+};
+constexpr std::array<RungeKuttaStage, 4> k_classical = {
+    {{0.5, 1.0 / 6.0}, {0.5, 1.0 / 3.0}, {1.0, 1.0 / 3.0}, {1.0, 1.0 / 6.0}}};
+
+constexpr double k_mirror_tolerance = 0.5;  // of dx: how far through a symmetry plane a particle may stray
+
+}  // namespace
+
+template <int D>
+Dynamics<D>::Dynamics(const Numerics<D>& numerics, const DomainBox<D>& box)
+    : numerics_(numerics),
+      ghosts_(box),
+      neighbors_(numerics.kernel_radius, numerics.skin),
+      shifting_(numerics.reference_velocity, numerics.spacing) {
+  double g = 0.0;
+  for (double component : numerics.gravity) g += std::fabs(component);
+  if (g > 0.0) terms_.push_back(std::make_unique<Gravity<D>>(numerics.gravity));
+  if (numerics.viscosity > 0.0)
+    terms_.push_back(std::make_unique<Viscosity<D>>(numerics.eos.rho0 * numerics.viscosity));
+}
+
+template <int D>
+double Dynamics<D>::stable_time_step() const {
+  const double R = numerics_.kernel_radius;
+  double dt = numerics_.cfl * R / numerics_.eos.c;
+  if (numerics_.viscosity > 0.0) dt = std::min(dt, numerics_.viscous_cfl * R * R / numerics_.viscosity);
+  if (most_acceleration_ > 0.0) dt = std::min(dt, numerics_.force_cfl * std::sqrt(R / most_acceleration_));
+  return dt;
+}
+
+template <int D>
+void Dynamics<D>::build_lists(Particles<D>& particles) {
+  ghosts_.create(particles, neighbors_.reach());
+  neighbors_.build(particles);
+  ++work_.list_builds;
+}
+
+template <int D>
+void Dynamics<D>::prepare(Particles<D>& particles, double t, StepHooks<D>* hooks) {
+  {
+    const PhaseSeconds::Scope scope(seconds_, Phase::lists);
+    if (neighbors_.outdated(particles)) {
+      work_.mirrored_back +=
+          static_cast<std::int64_t>(ghosts_.bring_back(particles, k_mirror_tolerance * numerics_.spacing, t));
+      particles.permute(neighbors_.space_order(particles));
+      build_lists(particles);
+    } else {
+      ghosts_.refresh(particles);
+    }
+  }
+  if (numerics_.free_surface) {
+    const PhaseSeconds::Scope scope(seconds_, Phase::surface);
+    surface_.detect(particles, neighbors_, ghosts_);
+    if (hooks != nullptr) hooks->adjust_surface(particles, t);
+    surface_.mark_near(particles, neighbors_, ghosts_);
+  }
+}
+
+template <int D>
+void Dynamics<D>::right_hand_side(Particles<D>& particles) {
+  {
+    const PhaseSeconds::Scope scope(seconds_, Phase::lists);
+    ghosts_.refresh(particles);
+    if (neighbors_.outdated(particles)) build_lists(particles);  // in the middle of a step: no sorting
+  }
+  if (numerics_.reconstruction != Reconstruction::first_order) {
+    const PhaseSeconds::Scope scope(seconds_, Phase::gradients);
+    compute_gradients(particles, neighbors_, gradients_);  // (S3)
+    ghosts_.refresh(gradients_, particles.n_owned);
+  }
+  {
+    const PhaseSeconds::Scope scope(seconds_, Phase::fluxes);
+    riemann_fluxes(particles, neighbors_, gradients_, numerics_.eos, numerics_.reconstruction, rate_);
+    work_.pairs += static_cast<std::int64_t>(neighbors_.n_pairs());
+  }
+  const PhaseSeconds::Scope scope(seconds_, Phase::terms);
+  for (const auto& term : terms_) term->add(particles, neighbors_, rate_);
+}
+
+template <int D>
+void Dynamics<D>::step(Particles<D>& particles, double t, double dt, StepHooks<D>* hooks) {
+  if (hooks != nullptr) {
+    const PhaseSeconds::Scope scope(seconds_, Phase::hooks);
+    hooks->before_step(particles, t, dt);
+  }
+  prepare(particles, t, hooks);
+  if (numerics_.shifting) {
+    const PhaseSeconds::Scope scope(seconds_, Phase::shift);
+    shifting_.compute(particles, neighbors_, numerics_.free_surface ? &surface_ : nullptr);  // (S10)
+    if (hooks != nullptr) hooks->adjust_shift(particles, t);
+  }
+  remember_start(particles);
+  for (std::size_t k = 0; k < k_classical.size(); ++k) {
+    right_hand_side(particles);  // (S3)-(S8)
+    const bool last = k + 1 == k_classical.size();
+    {
+      const PhaseSeconds::Scope scope(seconds_, Phase::update);
+      update(particles, k_classical[k].advance, k_classical[k].weight, last, dt);
+    }
+    if (hooks != nullptr) {
+      const PhaseSeconds::Scope scope(seconds_, Phase::hooks);
+      hooks->after_stage(particles, t + k_classical[k].advance * dt);
+    }
+  }
+  check(particles, t, dt);
+  ++work_.steps;
+  work_.particle_steps += static_cast<std::int64_t>(particles.n_owned);
+  if (hooks != nullptr) {
+    const PhaseSeconds::Scope scope(seconds_, Phase::hooks);
+    hooks->after_step(particles, t, dt);
+  }
+}
+
+template <int D>
+void Dynamics<D>::remember_start(const Particles<D>& particles) {
+  const std::size_t n = particles.n_owned;
+  const auto owned = [n](const std::vector<double>& column, std::vector<double>& copy) {
+    copy.assign(column.begin(), column.begin() + static_cast<std::ptrdiff_t>(n));
+  };
+  for (std::size_t d = 0; d < D; ++d) {
+    owned(particles.x[d], x_start_[d]);
+    owned(particles.u[d], u_start_[d]);
+    x_sum_[d].assign(n, 0.0);
+    u_sum_[d].assign(n, 0.0);
+  }
+  owned(particles.V, V_start_);
+  V_sum_.assign(n, 0.0);
+}
+
+template <int D>
+void Dynamics<D>::update(Particles<D>& particles, double advance, double weight, bool last, double dt) {
+  const auto n = static_cast<std::ptrdiff_t>(particles.n_owned);
+  const LinearEos eos = numerics_.eos;
+  double most = 0.0;
+#pragma omp parallel for schedule(static) reduction(max : most)
+  for (std::ptrdiff_t row = 0; row < n; ++row) {
+    const auto i = static_cast<std::size_t>(row);
+    double a2 = 0.0;
+    for (std::size_t d = 0; d < D; ++d) {
+      const double dx = particles.u[d][i] + particles.shift[d][i];  // (8), (13)
+      const double du = rate_.acceleration[d][i];
+      x_sum_[d][i] += weight * dx;
+      u_sum_[d][i] += weight * du;
+      particles.x[d][i] = x_start_[d][i] + dt * (last ? x_sum_[d][i] : advance * dx);
+      particles.u[d][i] = u_start_[d][i] + dt * (last ? u_sum_[d][i] : advance * du);
+      a2 += du * du;
+    }
+    V_sum_[i] += weight * rate_.volume[i];
+    particles.V[i] = V_start_[i] + dt * (last ? V_sum_[i] : advance * rate_.volume[i]);
+    particles.rho[i] = particles.m[i] / particles.V[i];
+    particles.p[i] = eos.pressure(particles.rho[i]);
+    if (particles.zone[i] != Zone::driven) most = std::max(most, a2);  // a driven one is moved by FV
+  }
+  most_acceleration_ = std::sqrt(most);
+}
+
+template <int D>
+void Dynamics<D>::check(const Particles<D>& particles, double t, double dt) const {
+  const auto n = static_cast<std::ptrdiff_t>(particles.n_owned);
+  std::ptrdiff_t first_bad = n;
+#pragma omp parallel for schedule(static) reduction(min : first_bad)
+  for (std::ptrdiff_t row = 0; row < n; ++row) {
+    const auto i = static_cast<std::size_t>(row);
+    double sum = particles.p[i];
+    for (std::size_t d = 0; d < D; ++d) sum += particles.x[d][i] + particles.u[d][i];
+    if (!(particles.V[i] > 0.0) || !std::isfinite(sum)) first_bad = std::min(first_bad, row);
+  }
+  if (first_bad == n) return;
+  const auto i = static_cast<std::size_t>(first_bad);
+  std::ostringstream text;
+  text << "t = " << t + dt << " s: particle " << particles.id[i] << " started the step at (";
+  for (std::size_t d = 0; d < D; ++d) text << (d ? ", " : "") << x_start_[d][i];
+  text << ") m with velocity (";
+  for (std::size_t d = 0; d < D; ++d) text << (d ? ", " : "") << u_start_[d][i];
+  text << ") m/s and left it with volume " << particles.V[i] << " m^" << D << ", pressure " << particles.p[i]
+       << " Pa. dt was " << dt
+       << " s; try a lower time.cfl, or a higher sound speed if velocities come near it.";
+  throw StabilityError(text.str());
+}
+
+template class Dynamics<2>;
+template class Dynamics<3>;
+
+}  // namespace littoral::sph

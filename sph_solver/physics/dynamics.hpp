@@ -1,0 +1,91 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "boundary/domain_box.hpp"
+#include "boundary/ghosts.hpp"
+#include "neighbors/neighbor_list.hpp"
+#include "particles/particles.hpp"
+#include "physics/gradients.hpp"
+#include "physics/numerics.hpp"
+#include "physics/phase_seconds.hpp"
+#include "physics/rate.hpp"
+#include "physics/shifting.hpp"
+#include "physics/step_hooks.hpp"
+#include "physics/surface.hpp"
+#include "physics/term.hpp"
+
+namespace littoral::sph {
+
+/// Work done so far, for the rates in a run's summary.
+struct WorkCount {
+  std::int64_t steps = 0;
+  std::int64_t particle_steps = 0;
+  std::int64_t pairs = 0;  // directed pairs of lists seen by the flux loop
+  std::int64_t list_builds = 0;
+  std::int64_t mirrored_back = 0;  // particles that had crossed a symmetry plane by less than half a spacing
+};
+
+/// Advances the particles by classical Runge-Kutta steps of (x, u, V). Holds what a step needs besides the
+/// particles.
+template <int D>
+class Dynamics {
+ public:
+  Dynamics(const Numerics<D>& numerics, const DomainBox<D>& box);
+
+  /// Largest stable step for the particles as they are (S11): (16), and a limit from the accelerations of the
+  /// last right-hand side.
+  double stable_time_step() const;
+
+  /// One step from t to t + dt. hooks may be null.
+  /// throws StabilityError naming a particle whose state is not finite, whose volume is not positive, or that
+  /// is lost
+  void step(Particles<D>& particles, double t, double dt, StepHooks<D>* hooks);
+
+  /// Makes copies and lists belong to the particles as they stand (sorting them if lists are made anew), so
+  /// that points can be sampled and the surface is known. step() does this itself.
+  void prepare(Particles<D>& particles, double t, StepHooks<D>* hooks);
+
+  /// du/dt and dV/dt of the particles as they stand; copies refreshed. pre: prepare() since particles changed
+  void right_hand_side(Particles<D>& particles);
+
+  const Rate<D>& rate() const { return rate_; }
+  const NeighborList<D>& neighbors() const { return neighbors_; }
+  const Ghosts<D>& ghosts() const { return ghosts_; }
+  const SurfaceDetection<D>& surface() const { return surface_; }
+  const Numerics<D>& numerics() const { return numerics_; }
+  const PhaseSeconds& seconds() const { return seconds_; }
+  const WorkCount& work() const { return work_; }
+  PhaseSeconds& seconds() { return seconds_; }
+
+ private:
+  void build_lists(Particles<D>& particles);
+  void update(Particles<D>& particles, double advance, double weight, bool last, double dt);
+  void remember_start(const Particles<D>& particles);
+  void check(const Particles<D>& particles, double t, double dt) const;
+
+  Numerics<D> numerics_;
+  Ghosts<D> ghosts_;
+  NeighborList<D> neighbors_;
+  Gradients<D> gradients_;
+  Rate<D> rate_;
+  SurfaceDetection<D> surface_;
+  Shifting<D> shifting_;
+  std::vector<std::unique_ptr<Term<D>>> terms_;
+  double most_acceleration_ = 0.0;  // [m/s^2] of the last right-hand side, driven particles apart
+
+  // Runge-Kutta: state at the start of the step and sum of weighted slopes (n_owned)
+  std::array<std::vector<double>, D> x_start_, u_start_, x_sum_, u_sum_;
+  std::vector<double> V_start_, V_sum_;
+
+  PhaseSeconds seconds_;
+  WorkCount work_;
+};
+
+extern template class Dynamics<2>;
+extern template class Dynamics<3>;
+
+}  // namespace littoral::sph

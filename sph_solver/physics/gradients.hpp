@@ -1,0 +1,33 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "neighbors/neighbor_list.hpp"
+#include "particles/particles.hpp"
+
+namespace littoral::sph {
+
+/// Gradients of p and u at every particle (n_owned + n_ghost).
+template <int D>
+struct Gradients {
+  using Column = std::vector<double>;
+  std::array<Column, D> p;                 // [Pa/m]
+  std::array<std::array<Column, D>, D> u;  // [1/s] u[a][b] = d u_a / d x_b
+  void resize(std::size_t n);
+};
+
+/// Renormalised gradients (S3): grad q_i = B_i^-1 sum_j V_j (q_j - q_i) grad W_ij, exact for linear fields on
+/// any cloud. Where the neighbours nearly lie in a plane (spray) B has no usable inverse and the gradient is
+/// 0: first order. in    particles.x .u .p .V, copies current out   gradients, owned part (the caller
+/// refreshes the copies) comm  local
+template <int D>
+void compute_gradients(const Particles<D>& particles, const NeighborList<D>& neighbors,
+                       Gradients<D>& gradients);
+
+extern template struct Gradients<2>;
+extern template struct Gradients<3>;
+extern template void compute_gradients<2>(const Particles<2>&, const NeighborList<2>&, Gradients<2>&);
+extern template void compute_gradients<3>(const Particles<3>&, const NeighborList<3>&, Gradients<3>&);
+
+}  // namespace littoral::sph

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <array>
+
+#include "physics/eos.hpp"
+#include "physics/riemann.hpp"
+
+namespace littoral::sph {
+
+/// Everything the equations of the particles depend on; a scene and an sph.yaml in numbers.
+template <int D>
+struct Numerics {
+  LinearEos eos;
+  double viscosity = 0.0;           // nu [m^2/s]; 0: no viscous term
+  std::array<double, D> gravity{};  // [m/s^2]; 0: no such term
+  bool free_surface = false;        // else no detection
+  double spacing = 0.0;             // dx [m]
+  double kernel_radius = 0.0;       // R [m]
+  double skin = 0.0;                // of the neighbour lists [m]
+  Reconstruction reconstruction = Reconstruction::unlimited;
+  bool shifting = true;
+  double reference_velocity = 0.0;  // U of (14) [m/s]
+  double cfl = 0.375;               // CFL_a of (16)
+  double viscous_cfl = 0.12;        // CFL_nu of (16)
+  double force_cfl = 0.25;          // on sqrt(R / |du/dt|)
+};
+
+}  // namespace littoral::sph

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+namespace littoral::sph {
+
+/// How the states on the two sides of the midpoint are found from those of the particles.
+enum class Reconstruction : std::uint8_t { first_order, unlimited, minmod, van_leer };
+
+/// Solution of the linearised Riemann problem (S5), along the line from i to j.
+struct FaceState {
+  double u;  // velocity along the line [m/s]
+  double p;  // [Pa]
+};
+
+/// Di Mascio et al. 2021, eq. (12), after Parshikov & Medin 2002. u: velocity along the line from left to
+/// right.
+inline FaceState linearised_riemann(double rho_l, double u_l, double p_l, double rho_r, double u_r,
+                                    double p_r, double c) {
+  const double weight = 1.0 / (rho_l + rho_r);
+  return {weight * (rho_l * u_l + rho_r * u_r + (p_l - p_r) / c),
+          weight * (rho_r * p_l + rho_l * p_r + c * rho_l * rho_r * (u_l - u_r))};
+}
+
+/// Difference the reconstruction adds over the whole distance i to j, seen from one side (S4). `centred`: the
+/// particle's own gradient times the distance, `across`: q_j - q_i. Limited variants compare `across` with
+/// the upwind difference 2 centred - across.
+template <Reconstruction variant>
+inline double limited_difference(double centred, double across) {
+  if constexpr (variant == Reconstruction::unlimited) return centred;
+  const double upwind = 2.0 * centred - across;
+  const double product = upwind * across;
+  if constexpr (variant == Reconstruction::minmod) {
+    const double smaller = std::fabs(upwind) < std::fabs(across) ? upwind : across;
+    return product > 0.0 ? smaller : 0.0;
+  }
+  if constexpr (variant == Reconstruction::van_leer) {
+    const double sum = product > 0.0 ? upwind + across : 1.0;  // never divides by zero in a discarded lane
+    const double harmonic = 2.0 * product / sum;
+    return product > 0.0 ? harmonic : 0.0;
+  }
+  return 0.0;
+}
+
+}  // namespace littoral::sph

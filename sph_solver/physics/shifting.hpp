@@ -1,0 +1,31 @@
+#pragma once
+
+#include "neighbors/neighbor_list.hpp"
+#include "particles/particles.hpp"
+#include "physics/surface.hpp"
+
+namespace littoral::sph {
+
+/// Particle shifting (S10), Di Mascio et al. 2021, eqs. (13)-(15):
+///   n_i = R sum_j dx^D grad W_ij,   shift_i = -U n_i, its length at most U/4.
+/// The paper caps with |u_i|/4, which vanishes at rest and depends on the frame; here U is the scene's
+/// reference velocity in both places. Within one kernel radius of the surface only the tangential part
+/// remains, fading to nothing on the surface itself, so that shifting neither moves the surface nor creates
+/// volume.
+template <int D>
+class Shifting {
+ public:
+  Shifting(double reference_velocity, double spacing);
+  /// out: particles.shift. surface: null where the scene has no free surface.
+  void compute(Particles<D>& particles, const NeighborList<D>& neighbors,
+               const SurfaceDetection<D>* surface) const;
+
+ private:
+  double velocity_;        // U [m/s]
+  double nominal_volume_;  // dx^D [m^D]
+};
+
+extern template class Shifting<2>;
+extern template class Shifting<3>;
+
+}  // namespace littoral::sph
