@@ -1,0 +1,189 @@
+#include "config.hpp"
+
+#include "littoral/error.hpp"
+
+namespace littoral::fv {
+namespace {
+
+using support::Binder;
+
+const std::vector<std::pair<std::string, int>> k_conditions = {
+    {"scene", static_cast<int>(FaceConfig::Kind::by_scene)},
+    {"wall", static_cast<int>(Condition::wall)},
+    {"slip", static_cast<int>(Condition::slip)},
+    {"symmetry", static_cast<int>(Condition::symmetry)},
+    {"inflow", static_cast<int>(Condition::inflow)},
+    {"outflow", static_cast<int>(Condition::outflow)},
+    {"far_field", static_cast<int>(Condition::far_field)},
+    {"state", static_cast<int>(Condition::state)},
+    {"periodic", static_cast<int>(Condition::periodic)},
+    {"fringe", static_cast<int>(Condition::fringe)}};
+
+const std::array<std::string, 3> k_axes = {"x", "y", "z"};
+const std::vector<std::pair<std::string, int>> k_faces = {{"x_lower", 0}, {"x_upper", 1}, {"y_lower", 2},
+                                                          {"y_upper", 3}, {"z_lower", 4}, {"z_upper", 5}};
+
+}  // namespace
+
+void Stretching::bind(Binder& b) {
+  b.choice("kind", kind, {{"uniform", Kind::uniform}, {"geometric", Kind::geometric}, {"tanh", Kind::tanh}})
+      .doc(
+          "uniform: equal cells; geometric: each a fixed factor wider than the next; tanh: smooth, finest at "
+          "the ends.");
+  b.key("ratio", ratio).min(1.0).doc("geometric: width of the widest cell over the narrowest.");
+  b.key("strength", strength)
+      .exclusive_min(0)
+      .max(10)
+      .doc("tanh: argument at the ends; larger is finer there.");
+  b.choice("toward", toward, {{"lower", Toward::lower}, {"upper", Toward::upper}, {"both", Toward::both}})
+      .doc("Where the narrow cells are.");
+}
+
+void FaceConfig::bind(Binder& b) {
+  b.choice("condition", condition, k_conditions)
+      .doc(
+          "scene: what the scene says of this side of the domain (open inside a coupled region: fringe); "
+          "wall: no "
+          "slip, u v w slide it; slip; symmetry; inflow: u v w given; outflow: p given; far_field: all "
+          "given; "
+          "state: all given in two layers of ghosts; periodic; fringe: ghosts imposed by the partner.");
+  b.key("name", name).doc("Of the wall or opening, for forces and messages; left out: block.face.");
+  b.key("u", u).unit("m/s").doc("Velocity along x on the face.");
+  b.key("v", v).unit("m/s").doc("Velocity along y on the face; 3-D only.");
+  b.key("w", w).unit("m/s").doc("Velocity along z on the face.");
+  b.key("p", p).unit("Pa").doc("Pressure on the face; left out: hydrostatic.");
+  b.key("wave_speed", wave_speed)
+      .unit("m/s")
+      .min(0)
+      .doc(
+          "far_field: speed of the Riemann problem; of the order of the stream's; 0: that of the given "
+          "velocity.");
+}
+
+void BlockConfig::bind(Binder& b) {
+  b.key("name", name).doc("For messages, fields and faces.");
+  b.key("lower", lower).unit("m").required().doc("Lower corner of the box.");
+  b.key("upper", upper).unit("m").required().doc("Upper corner of the box.");
+  b.key("cells", cells).required().min(1).doc("Cells along x, y, z; in 2-D the middle one is not used.");
+  b.section("stretching", "Widths of the cells along each direction.", [&] {
+    for (std::size_t d = 0; d < 3; ++d)
+      b.section(k_axes[d], "Along " + k_axes[d] + ".", [&] { stretching[d].bind(b); });
+  });
+  b.section("mapping", "Deforms the box: formulas of its coordinates x, y, z; left out: the box itself.",
+            [&] {
+              for (std::size_t d = 0; d < 3; ++d)
+                b.key(k_axes[d], mapping[d]).unit("m").doc("Coordinate " + k_axes[d] + " of a node.");
+            });
+  b.section("faces", "Condition on each face.", [&] {
+    for (const auto& face : k_faces)
+      b.section(face.first, "Face " + face.first + ".",
+                [&] { faces[static_cast<std::size_t>(face.second)].bind(b); });
+  });
+  b.list<PatchConfig>("patches", "Parts of a face with another condition; later ones win.", patches,
+                      [](Binder& item, PatchConfig& patch) {
+                        item.choice("face", patch.face, k_faces).doc("Which face.");
+                        item.key("from", patch.from)
+                            .min(0)
+                            .doc("First cell along x, y, z; the face's own direction is not used.");
+                        item.key("to", patch.to).min(0).doc("One past the last cell along x, y, z.");
+                        patch.condition.bind(item);
+                      });
+}
+
+void FvConfig::bind(Binder& b) {
+  b.key("scene", scene).doc("The scene's file, relative to this one.");
+  b.list<BlockConfig>("blocks", "Blocks of the grid.", blocks,
+                      [](Binder& item, BlockConfig& block) { block.bind(item); });
+  b.section("time", "Steps of a run without partner, and bounds on the windows of a coupled one.", [&] {
+    b.key("dt", time.dt).unit("s").exclusive_min(0).doc("Time step.");
+    b.key("cfl", time.cfl)
+        .exclusive_min(0)
+        .doc("Time step by the Courant number of the flow speed (at least reference_velocity).");
+  });
+  b.section("dual_time", "The inner iteration of a step.", [&] {
+    using Method = DualTime::Method;
+    b.choice("method", dual_time.method, {{"multigrid", Method::multigrid}, {"plain", Method::plain}})
+        .doc("multigrid: linear multigrid correction; plain: explicit pseudo-time steps, slow.");
+    b.key("drop", dual_time.drop)
+        .exclusive_min(0)
+        .exclusive_max(1)
+        .doc("Residual over that of the step's start at which the iteration ends.");
+    b.key("floor", dual_time.floor)
+        .unit("m/s")
+        .min(0)
+        .doc(
+            "Residual, as a velocity, below which nothing more is asked for; auto: 1e-9 of the reference "
+            "velocity.");
+    b.key("max_cycles", dual_time.max_cycles)
+        .min(1)
+        .doc("Cycles after which the step goes on all the same, with a warning.");
+    b.key("pseudo_cfl", dual_time.pseudo_cfl)
+        .exclusive_min(0)
+        .doc("Courant number of the pseudo-time step; plain only.");
+    b.key("kappa", dual_time.kappa)
+        .min(0)
+        .max(1)
+        .doc("Wave speed of the mass flux: at least kappa h/dt; above .5 small steps become unstable.");
+    b.key("pseudo_sound_speed", dual_time.pseudo_sound_speed)
+        .unit("m/s")
+        .exclusive_min(0)
+        .doc("sqrt(beta), of the order of the flow speed; auto: the scene's reference velocity.");
+    b.key("print_history", dual_time.print_history).doc("Log the residual after each cycle.");
+  });
+  b.choice("limiter", limiter, {{"none", Limiter::none}, {"van_albada", Limiter::van_albada}})
+      .doc("Of the third-order reconstruction.");
+  b.key("forcing_constant", forcing_constant)
+      .exclusive_min(0)
+      .doc("K of the forcing in overlapped cells; O(10).");
+  b.section("source", "Sources per volume, formulas of x, y, z, t.", [&] {
+    b.key("mass", source.mass).unit("kg/(m^3 s)").doc("Of the mass balance.");
+    b.key("u", source.u).unit("N/m^3").doc("Force along x.");
+    b.key("v", source.v).unit("N/m^3").doc("Force along y; 3-D only.");
+    b.key("w", source.w).unit("N/m^3").doc("Force along z.");
+  });
+  b.list<GaugeConfig>("gauges", "Values written to gauges.csv.", gauges, [](Binder& item, GaugeConfig& g) {
+    item.key("name", g.name).required().doc("Column prefix.");
+    item.choice("kind", g.kind, {{"point", GaugeConfig::Kind::point}, {"force", GaugeConfig::Kind::force}})
+        .doc("point: p, u, v, w at a place; force: force and moment on a wall.");
+    item.key("at", g.at).unit("m").doc("Place; point only.");
+    item.key("wall", g.wall).doc("Name of the wall; force only.");
+    item.key("moment_about", g.moment_about).unit("m").doc("Centre of the moments; force only.");
+  });
+  b.section("output", "What is written besides gauges.", [&] {
+    b.key("fields", output.fields).doc("XDMF fields at the scene's field_interval.");
+    b.key("scalars_every", output.scalars_every)
+        .min(1)
+        .doc("Steps between rows of scalars.csv and gauges.csv.");
+  });
+  if (b.mode() != Binder::Mode::read) return;
+  b.check(!blocks.empty(), "blocks", "a grid needs at least one block.");
+  b.check(!(time.dt && time.cfl), "time.cfl", "given together with time.dt; give one of them.");
+  for (const auto& g : gauges)
+    b.check(g.kind != GaugeConfig::Kind::force || !g.wall.empty(), "gauges",
+            "a force gauge needs a wall: its name.");
+}
+
+FvConfig FvConfig::from_file(const std::string& path, const std::vector<std::string>& settings,
+                             const std::vector<std::string>& scene_settings, support::Scene& scene) {
+  support::Document document = support::Document::from_file(path);
+  for (const auto& setting : settings) document.set(setting);
+  // the scene first: its constants may be used in this file's formulas. It is named in this file.
+  FvConfig config;
+  Binder first(document);
+  first.key("scene", config.scene).doc("The scene's file, relative to this one.");
+  scene = support::Scene::from_file(document.resolve(config.scene), scene_settings);
+  Binder binder(document);
+  binder.use_constants(scene.constants);
+  config.bind(binder);
+  binder.finish();
+  return config;
+}
+
+std::string FvConfig::resolved() const {
+  Binder binder(Binder::Mode::resolved);
+  FvConfig copy = *this;  // bind() takes references to members; in this mode it only reads them
+  copy.bind(binder);
+  return binder.text();
+}
+
+}  // namespace littoral::fv

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "boundary/window.hpp"
+#include "littoral/support/config.hpp"
+#include "littoral/support/scene.hpp"
+#include "physics/equations.hpp"
+
+namespace littoral::fv {
+
+/// How cell widths change along one direction of a box.
+struct Stretching {
+  enum class Kind : std::uint8_t { uniform, geometric, tanh };
+  enum class Toward : std::uint8_t { lower, upper, both };
+  Kind kind = Kind::uniform;
+  double ratio = 1.0;             // geometric: width of the largest over the smallest cell
+  double strength = 2.0;          // tanh: larger is finer at the refined ends
+  Toward toward = Toward::lower;  // where the cells are small
+  void bind(support::Binder& b);
+};
+
+/// Condition on a face or on a part of it.
+struct FaceConfig {
+  enum class Kind : std::uint8_t { by_scene = 100 };  // beside Condition's values
+  int condition = static_cast<int>(Kind::by_scene);
+  std::string name;                         // "" : block.face
+  std::optional<support::Formula> u, v, w;  // [m/s]
+  std::optional<support::Formula> p;        // [Pa]
+  double wave_speed = 0.0;                  // [m/s]
+  void bind(support::Binder& b);
+};
+
+struct PatchConfig {  // a part of a face
+  int face = 0;       // 2 * direction + side, direction in x, y, z
+  std::array<int, 3> from = {0, 0, 0};
+  std::array<int, 3> to = {0, 0, 0};
+  FaceConfig condition;
+};
+
+struct BlockConfig {
+  std::string name = "block";
+  std::array<double, 3> lower = {0, 0, 0}, upper = {0, 0, 0};  // [m]
+  std::array<int, 3> cells = {1, 1, 1};
+  std::array<Stretching, 3> stretching;
+  std::array<std::optional<support::Formula>, 3> mapping;  // [m] of the box coordinates x, y, z
+  std::array<FaceConfig, 6> faces;                         // 2 * direction + side
+  std::vector<PatchConfig> patches;
+  void bind(support::Binder& b);
+};
+
+struct GaugeConfig {
+  enum class Kind : std::uint8_t { point, force };
+  std::string name;
+  Kind kind = Kind::point;
+  std::array<double, 3> at = {0, 0, 0};            // [m] point
+  std::string wall;                                // force
+  std::array<double, 3> moment_about = {0, 0, 0};  // [m] force
+};
+
+/// The content of fv.yaml.
+struct FvConfig {
+  std::string scene = "scene.yaml";
+  std::vector<BlockConfig> blocks;
+
+  struct Time {
+    std::optional<double> dt;   // [s] alone, or an upper bound in a coupled run
+    std::optional<double> cfl;  // [-] likewise, by the convective speed
+  } time;
+
+  struct DualTime {
+    enum class Method : std::uint8_t { multigrid, plain };
+    Method method = Method::multigrid;
+    double drop = 1e-3;
+    std::optional<double> floor;  // [m/s]
+    int max_cycles = 50;
+    double pseudo_cfl = 1.5;
+    double kappa = 0.5;
+    std::optional<double> pseudo_sound_speed;  // [m/s] sqrt(beta)
+    bool print_history = false;
+  } dual_time;
+
+  Limiter limiter = Limiter::none;
+  double forcing_constant = 10.0;  // K of (21)
+
+  struct SourceTerm {  // per volume
+    std::optional<support::Formula> mass, u, v, w;
+  } source;
+
+  std::vector<GaugeConfig> gauges;
+  struct Output {
+    bool fields = true;
+    int scalars_every = 1;
+  } output;
+
+  void bind(support::Binder& b);
+  /// Reads and checks fv.yaml and the scene it names. throws ConfigError with all problems
+  static FvConfig from_file(const std::string& path, const std::vector<std::string>& settings,
+                            const std::vector<std::string>& scene_settings, support::Scene& scene);
+  std::string resolved() const;
+};
+
+}  // namespace littoral::fv
