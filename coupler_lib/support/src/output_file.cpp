@@ -51,24 +51,28 @@ void OutputFile::close() {
   if (std::fclose(file) != 0) fail(path_, "close", errno);
 }
 
-void replace_file(const std::string& path, const void* bytes, std::size_t count) {
-  const std::string temporary = path + ".part";
-  try {
-    OutputFile file(temporary, OutputFile::Mode::create);
-    file.write(bytes, count);
-    file.close();
-    std::error_code error;
-    std::filesystem::rename(temporary, path, error);
-    if (error) fail(path, "rename the finished file to this name", error.value());
-  } catch (const IoError&) {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-    throw;
-  }
+ReplacingFile::ReplacingFile(const std::string& path)
+    : path_(path),
+      temporary_(path + ".part"),
+      file_(std::make_unique<OutputFile>(temporary_, OutputFile::Mode::create)) {}
+
+ReplacingFile::~ReplacingFile() {
+  std::error_code ignored;
+  if (file_) std::filesystem::remove(temporary_, ignored);
+}
+
+void ReplacingFile::commit(const void* bytes, std::size_t count) {
+  file_->write(bytes, count);
+  file_->close();
+  std::error_code error;
+  std::filesystem::rename(temporary_, path_, error);
+  if (error) fail(path_, "rename the finished file to this name", error.value());
+  file_.reset();
 }
 
 void replace_file(const std::string& path, const std::string& text) {
-  replace_file(path, text.data(), text.size());
+  ReplacingFile file(path);
+  file.commit(text.data(), text.size());
 }
 
 }  // namespace littoral::support

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdio>
+#include <memory>
 #include <string>
 
 namespace littoral::support {
@@ -24,9 +25,21 @@ class OutputFile {
   std::FILE* file_ = nullptr;
 };
 
-/// Writes the whole file under a temporary name (path + ".part") and renames it, so that `path` is always
-/// either the old file or the complete new one.
-void replace_file(const std::string& path, const void* bytes, std::size_t count);
+/// A file written under a temporary name (path + ".part") and renamed when complete, so that `path` is always
+/// either the old file or the whole new one. A path that cannot be written is found at once.
+class ReplacingFile {
+ public:
+  explicit ReplacingFile(const std::string& path);
+  ~ReplacingFile();  ///< without commit(): removes the temporary file
+  ReplacingFile(const ReplacingFile&) = delete;
+  ReplacingFile& operator=(const ReplacingFile&) = delete;
+  void commit(const void* bytes, std::size_t count);
+
+ private:
+  std::string path_, temporary_;
+  std::unique_ptr<OutputFile> file_;
+};
+
 void replace_file(const std::string& path, const std::string& text);
 
 }  // namespace littoral::support
