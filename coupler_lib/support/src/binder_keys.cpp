@@ -1,4 +1,5 @@
 // The types a key can have: each as a reader, a text and the numbers its range concerns.
+#include <algorithm>
 #include <cmath>
 
 #include "binder_impl.hpp"
@@ -14,21 +15,43 @@ const std::string& scalar(const Value& value, const std::string& type) {
   return value.text;
 }
 
-double to_double(const Value& value) {
+/// Formula of constants, as `4*dx`; nothing where it is no formula or depends on x, y, z, t.
+std::optional<double> constant_formula(const std::string& text,
+                                       const std::map<std::string, double>& constants) {
+  try {
+    const Formula formula(text, constants);
+    if (!formula.is_constant()) return std::nullopt;
+    const double number = formula(0, 0, 0, 0);
+    return std::isfinite(number) ? std::optional<double>(number) : std::nullopt;
+  } catch (const ConfigError&) {
+    return std::nullopt;
+  }
+}
+
+double to_double(const Value& value, const std::map<std::string, double>& constants) {
   const std::string& text = scalar(value, "a number");
   if (const auto number = parse_number(text)) return *number;
   if (text == ".nan" || text == ".NaN" || text == ".NAN") throw BadValue{"is not a number (.nan)"};
   const bool infinity = text == "inf" || text == "infinity" || text == "Infinity";
+  if (!infinity && !text.empty())
+    if (const auto number = constant_formula(text, constants)) return *number;
+  std::string names;
+  for (const auto& constant : constants) names += (names.empty() ? "" : ", ") + constant.first;
   throw BadValue{"is " + value.description() + "; expected a number" +
+                 (names.empty() ? "" : ", or a formula of the constants " + names) +
                  (infinity ? " (infinity is .inf)" : "")};
 }
 
-int to_int(const Value& value) {
+int to_int(const Value& value, const std::map<std::string, double>& constants) {
   const std::string& text = scalar(value, "a whole number");
-  const auto number = parse_number(text);
-  if (!number || *number != std::floor(*number) || std::abs(*number) > 2147483647.0)
+  const auto plain = parse_number(text);
+  const auto number = plain ? plain : constant_formula(text, constants);
+  // a formula may miss a whole number by its round-off; a plain number may not
+  const double slack = plain ? 0.0 : 1e-9;
+  if (!number || std::abs(*number - std::round(*number)) > slack * std::max(1.0, std::abs(*number)) ||
+      std::abs(*number) > 2147483647.0)
     throw BadValue{"is " + value.description() + "; expected a whole number"};
-  return static_cast<int>(*number);
+  return static_cast<int>(std::lround(*number));
 }
 
 bool to_bool(const Value& value) {
@@ -97,7 +120,7 @@ std::string alternatives(const std::vector<std::pair<std::string, int>>& words) 
 
 Binder::Key Binder::key(const std::string& name, double& value) {
   LITTORAL_KEY("a number");
-  k.read = [&value](const Value& v) { value = to_double(v); };
+  k.read = [&value, this](const Value& v) { value = to_double(v, impl_->constants); };
   k.show = [&value] { return show(value); };
   k.numbers = [&value] { return std::vector<double>{value}; };
   return key;
@@ -105,7 +128,7 @@ Binder::Key Binder::key(const std::string& name, double& value) {
 
 Binder::Key Binder::key(const std::string& name, int& value) {
   LITTORAL_KEY("a whole number");
-  k.read = [&value](const Value& v) { value = to_int(v); };
+  k.read = [&value, this](const Value& v) { value = to_int(v, impl_->constants); };
   k.show = [&value] { return show(value); };
   k.numbers = [&value] { return std::vector<double>{static_cast<double>(value)}; };
   return key;
@@ -127,9 +150,9 @@ Binder::Key Binder::key(const std::string& name, std::string& value) {
 
 Binder::Key Binder::key(const std::string& name, std::array<double, 3>& value) {
   LITTORAL_KEY("three numbers [x, y, z]");
-  k.read = [&value, type = k.type](const Value& v) {
+  k.read = [&value, this, type = k.type](const Value& v) {
     const auto& items = list_of(v, type, 3);
-    for (std::size_t d = 0; d < 3; ++d) value[d] = to_double(items[d]);
+    for (std::size_t d = 0; d < 3; ++d) value[d] = to_double(items[d], impl_->constants);
   };
   k.show = [&value] { return show_list(value); };
   k.numbers = [&value] { return std::vector<double>(value.begin(), value.end()); };
@@ -138,9 +161,9 @@ Binder::Key Binder::key(const std::string& name, std::array<double, 3>& value) {
 
 Binder::Key Binder::key(const std::string& name, std::array<int, 3>& value) {
   LITTORAL_KEY("three whole numbers [x, y, z]");
-  k.read = [&value, type = k.type](const Value& v) {
+  k.read = [&value, this, type = k.type](const Value& v) {
     const auto& items = list_of(v, type, 3);
-    for (std::size_t d = 0; d < 3; ++d) value[d] = to_int(items[d]);
+    for (std::size_t d = 0; d < 3; ++d) value[d] = to_int(items[d], impl_->constants);
   };
   k.show = [&value] { return show_list(value); };
   k.numbers = [&value] { return std::vector<double>(value.begin(), value.end()); };
@@ -149,9 +172,9 @@ Binder::Key Binder::key(const std::string& name, std::array<int, 3>& value) {
 
 Binder::Key Binder::key(const std::string& name, std::vector<double>& value) {
   LITTORAL_KEY("a list of numbers");
-  k.read = [&value, type = k.type](const Value& v) {
+  k.read = [&value, this, type = k.type](const Value& v) {
     value.clear();
-    for (const auto& item : list_of(v, type)) value.push_back(to_double(item));
+    for (const auto& item : list_of(v, type)) value.push_back(to_double(item, impl_->constants));
   };
   k.show = [&value] { return show_list(value); };
   k.numbers = [&value] { return value; };
@@ -180,10 +203,10 @@ Binder::Key Binder::key(const std::string& name, Formula& value) {
 
 Binder::Key Binder::key(const std::string& name, std::optional<double>& value) {
   LITTORAL_KEY("a number or auto");
-  k.read = [&value](const Value& v) {
+  k.read = [&value, this](const Value& v) {
     value.reset();
     const bool none = v.kind == Value::Kind::null || (v.kind == Value::Kind::scalar && v.text == "auto");
-    if (!none) value = to_double(v);
+    if (!none) value = to_double(v, impl_->constants);
   };
   k.show = [&value] { return value ? show(*value) : std::string("auto"); };
   k.numbers = [&value] { return value ? std::vector<double>{*value} : std::vector<double>{}; };

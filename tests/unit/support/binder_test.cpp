@@ -85,6 +85,30 @@ TEST(BinderTest, AbsentKeysKeepTheirDefaults) {
   EXPECT_EQ(resolved(s), resolved(Sample{}));
 }
 
+TEST(BinderTest, NumbersMayBeFormulasOfConstants) {
+  const Sample s = read(R"(
+constants: {H: 2, n: 25, dx: H/n}
+time: {cfl: H/4, dt: dx/10, max_steps: n + 1}
+origin: [-H, 0, dx]
+levels: [2*dx]
+blocks: [{cells: [2/dx, 1, n]}]
+)");
+  EXPECT_EQ(s.cfl, 0.5);
+  EXPECT_EQ(*s.dt, 2.0 / 25 / 10);
+  EXPECT_EQ(s.max_steps, 26);
+  EXPECT_EQ(s.origin, (std::array<double, 3>{-2, 0, 0.08}));
+  EXPECT_EQ(s.levels[0], 0.16);
+  EXPECT_EQ(s.blocks[0].cells, (std::array<int, 3>{25, 1, 25}));
+}
+
+TEST(BinderTest, RefusesFormulasThatGiveNoNumber) {
+  const std::string constants = "constants: {H: 2}\ntime: ";
+  EXPECT_CONTAINS(refusal(constants + "{cfl: 2*x}"), "expected a number, or a formula of the constants H");
+  EXPECT_CONTAINS(refusal(constants + "{cfl: 2*q}"), "expected a number, or a formula of the constants H");
+  EXPECT_CONTAINS(refusal(constants + "{cfl: 1/0}"), "expected a number");
+  EXPECT_CONTAINS(refusal(constants + "{max_steps: H/3}"), "expected a whole number");
+}
+
 TEST(BinderTest, ReadsEveryType) {
   const Sample s = read(R"(
 constants: {H: 2, k: 2*H + 1}

@@ -111,7 +111,9 @@ TEST_F(SceneTest, TextInANumericKeyHasItsLine) {
   std::string text = k_wave;
   text.replace(text.find("blending_width: 0.08"), 20, "blending_width: 2*dx");
   EXPECT_EQ(refusal({}, text),
-            folder_ / "scene.yaml:9: 'coupling.blending_width' is '2*dx'; expected a number.");
+            folder_ /
+                "scene.yaml:9: 'coupling.blending_width' is '2*dx'; expected a number, or a formula of "
+                "the constants H, a, k.");
 }
 
 TEST_F(SceneTest, Domain) {

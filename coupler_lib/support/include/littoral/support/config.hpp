@@ -71,7 +71,7 @@ class Binder {
 
   Mode mode() const;
 
-  // Types a key can have.
+  // Types a key can have. Numbers may also be given as formulas of the constants, as in `4*dx`.
   Key key(const std::string& name, double& value);
   Key key(const std::string& name, int& value);
   Key key(const std::string& name, bool& value);
