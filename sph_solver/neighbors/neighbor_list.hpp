@@ -29,6 +29,8 @@ class NeighborList {
   /// True if particles were added, removed or moved by more than half the skin since build().
   bool outdated(const Particles<D>& particles) const;
 
+  void forget() { built_ = false; }  ///< outdated() until the next build
+
   std::size_t n_rows() const { return start_.empty() ? 0 : start_.size() - 1; }
   std::size_t n_pairs() const { return list_.size(); }  ///< directed, those of the skin included
   const std::size_t* start() const { return start_.data(); }

@@ -61,12 +61,14 @@ void Dynamics<D>::prepare(Particles<D>& particles, double t, StepHooks<D>* hooks
           static_cast<std::int64_t>(ghosts_.bring_back(particles, k_mirror_tolerance * numerics_.spacing, t));
       particles.permute(neighbors_.space_order(particles));
       build_lists(particles);
+      surface_current_ = false;
     } else {
       ghosts_.refresh(particles);
     }
   }
-  if (numerics_.free_surface) {
+  if (numerics_.free_surface && !surface_current_) {
     const PhaseSeconds::Scope scope(seconds_, Phase::surface);
+    surface_current_ = true;
     surface_.detect(particles, neighbors_, ghosts_);
     if (hooks != nullptr) hooks->adjust_surface(particles, t);
     surface_.mark_near(particles, neighbors_, ghosts_);
@@ -148,6 +150,7 @@ template <int D>
 void Dynamics<D>::update(Particles<D>& particles, double advance, double weight, bool last, double dt) {
   const auto n = static_cast<std::ptrdiff_t>(particles.n_owned);
   const LinearEos eos = numerics_.eos;
+  surface_current_ = false;
   double most = 0.0;
 #pragma omp parallel for schedule(static) reduction(max : most)
   for (std::ptrdiff_t row = 0; row < n; ++row) {

@@ -49,6 +49,10 @@ class Dynamics {
   /// that points can be sampled and the surface is known. step() does this itself.
   void prepare(Particles<D>& particles, double t, StepHooks<D>* hooks);
 
+  /// The particles were changed from outside (put back to an earlier state, say): lists and copies are made
+  /// anew.
+  void forget_lists() { neighbors_.forget(), surface_current_ = false; }
+
   /// du/dt and dV/dt of the particles as they stand; copies refreshed. pre: prepare() since particles changed
   void right_hand_side(Particles<D>& particles);
 
@@ -75,6 +79,7 @@ class Dynamics {
   SurfaceDetection<D> surface_;
   Shifting<D> shifting_;
   std::vector<std::unique_ptr<Term<D>>> terms_;
+  bool surface_current_ = false;    // flags belong to the positions as they stand
   double most_acceleration_ = 0.0;  // [m/s^2] of the last right-hand side, driven particles apart
 
   // Runge-Kutta: state at the start of the step and sum of weighted slopes (n_owned)
