@@ -40,9 +40,9 @@ void Script::refuse(const std::string& what) const {
                       std::to_string(tape_.calls().size()) + ": " + what);
 }
 
-const Call& Script::expect(CallKind kind) {
+const Call& Script::due(CallKind kind) const {
   const std::string asked = std::string("'") + name(kind) + "'";
-  if (goodbyes_) refuse(asked + " is asked after the goodbye");
+  if (said_goodbye_) refuse(asked + " is asked after the goodbye");
   if (stopped_) refuse(asked + " is asked after a stop that this run itself wished");
   if (at_ >= tape_.calls().size())
     refuse("the record is exhausted and " + asked +
@@ -51,13 +51,11 @@ const Call& Script::expect(CallKind kind) {
   if (due.kind != kind)
     refuse(asked + " is asked where the recorded run asked '" + name(due.kind) + "'" +
            (has_window(due.kind) ? " for " + text_of(due.window) : ""));
-  ++at_;
   return due;
 }
 
-const Call& Script::expect(CallKind kind, const Window& window, std::optional<std::size_t> count) {
-  const Call& due = expect(kind);
-  --at_;  // for the messages
+void Script::expect(CallKind kind, const Window& window, std::optional<std::size_t> count) {
+  const Call& due = this->due(kind);
   const std::string asked = std::string("'") + name(kind) + "' is asked ";
   if (!same(due.window, window))
     refuse(asked + "for " + text_of(window) + ", recorded is " + text_of(due.window));
@@ -65,15 +63,13 @@ const Call& Script::expect(CallKind kind, const Window& window, std::optional<st
     refuse(asked + "with " + std::to_string(*count) + " values in window " + std::to_string(window.index) +
            ", recorded are " + std::to_string(due.count));
   ++at_;
-  return due;
 }
 
 void Script::announce(const Question& asked) {
-  expect(CallKind::announce);
+  due(CallKind::announce);
   Question recorded;
   tape_.get("announce/edges", recorded.edges.data(), recorded.edges.size());
   tape_.get("announce/counts", recorded.counts.data(), recorded.counts.size());
-  --at_;  // for the messages
   for (std::size_t i = 0; i < 2; ++i) {
     if (asked.counts[i] != recorded.counts[i])
       refuse(std::to_string(asked.counts[i]) + (i == 0 ? " donors" : " targets") +
@@ -93,7 +89,7 @@ std::string Script::reason(const Call& call) {
 }
 
 Agreement Script::agree(const Proposal& mine, Role asking) {
-  const Call& due = expect(CallKind::agree);
+  const Call& due = this->due(CallKind::agree);
   Agreement agreement;
   std::array<std::uint8_t, k_agreement_flags.size()> flags;
   tape_.get("agree/flags", flags.data(), flags.size());
@@ -103,7 +99,7 @@ Agreement Script::agree(const Proposal& mine, Role asking) {
   // Writing changes nothing that the partner says, and a run may end before the record does.
   agreement.write = agreement.write || mine.write;
   agreement.checkpoint = agreement.checkpoint || mine.checkpoint;
-  if (agreement.stop) return agreement;
+  if (agreement.stop) return ++at_, agreement;
   if (mine.stop) {
     stopped_ = agreement.stop = true;
     agreement.reason = mine.reason;
@@ -111,13 +107,12 @@ Agreement Script::agree(const Proposal& mine, Role asking) {
     agreement.window.substeps = 1;
     return agreement;
   }
-  --at_;  // for the messages
   if (mine.region_changed && !agreement.region_changed)
     refuse("a change of the region is proposed that the recorded run did not make");
   if (mine.wants_particles && !agreement.wants_particles)
     refuse("particles are wanted that the recorded run did not ask for");
   const double step = asking == Role::sph ? due.window.substep_dt() : due.window.dt();
-  if (!(step <= mine.dt_stable * (1.0 + k_round_off))) {
+  if (!(step <= mine.dt_stable * (1.0 + 2.0 * k_round_off))) {
     std::array<char, 64> text;
     std::snprintf(text.data(), text.size(), "%.9g s, recorded are %.9g s", mine.dt_stable, step);
     refuse("the longest step proposed for " + text_of(due.window) + " is " + text.data());
@@ -136,8 +131,8 @@ Ledger Script::exchange(const Window& window) {
 }
 
 void Script::goodbye() {
-  if (!stopped_ || goodbyes_) reason(expect(CallKind::goodbye));
-  goodbyes_ = true;
+  if (!stopped_ || said_goodbye_) due(CallKind::goodbye);
+  said_goodbye_ = true;
 }
 
 }  // namespace littoral::coupler

@@ -18,11 +18,10 @@ class Script {
     return "replayed from " + tape_.path() + " (" + tape_.description() + ")";
   }
 
-  /// The next call of the record, which must be of this kind. throws CouplingError: another call is due, the
-  /// record is exhausted, the run has ended
-  const Call& expect(CallKind kind);
-  /// Likewise, and for this window with so many values (absent: any number).
-  const Call& expect(CallKind kind, const Window& window, std::optional<std::size_t> count = {});
+  /// Steps over the record's next call, which must be of this kind, for this window and with so many values
+  /// (absent: any number). throws CouplingError: another call is due, the record is exhausted, the run is
+  /// over
+  void expect(CallKind kind, const Window& window, std::optional<std::size_t> count = {});
 
   void announce(const Question& asked);
   Agreement agree(const Proposal& mine, Role asking);
@@ -30,13 +29,14 @@ class Script {
   void goodbye();
 
  private:
+  const Call& due(CallKind kind) const;  ///< the next call, checked for its kind
   [[noreturn]] void refuse(const std::string& what) const;
   std::string reason(const Call& call);
 
   TapeReader tape_;
-  std::size_t at_ = 0;     // calls answered
-  bool stopped_ = false;   // by the run's own wish, before the record's end
-  bool goodbyes_ = false;  // said
+  std::size_t at_ = 0;    // calls answered
+  bool stopped_ = false;  // by the run's own wish, before the record's end
+  bool said_goodbye_ = false;
 };
 
 }  // namespace littoral::coupler
