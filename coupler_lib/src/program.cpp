@@ -63,11 +63,14 @@ Proposal Sequence::limited(Proposal mine) const {
 
 Agreement Sequence::advance(const Proposal& sph, const Proposal& fv) {
   const Agreement agreement = agree(sph, fv, plan_.window, index_, time_, plan_.end_time);
-  if (!agreement.stop) {
-    ++index_;
-    time_ = agreement.window.t_end;
-  }
+  follow(agreement);
   return agreement;
+}
+
+void Sequence::follow(const Agreement& agreement) {
+  if (agreement.stop) return;
+  index_ = agreement.window.index + 1;
+  time_ = agreement.window.t_end;
 }
 
 }  // namespace littoral::coupler

@@ -25,6 +25,8 @@ class Sequence {
   Proposal limited(Proposal mine) const;
   /// Agrees on the next window and moves behind it.
   Agreement advance(const Proposal& sph, const Proposal& fv);
+  /// Moves behind a window agreed on elsewhere.
+  void follow(const Agreement& agreement);
 
  private:
   RunPlan plan_;

@@ -107,6 +107,10 @@ void validate(const DonorValues& values, const DonorGeometry& geometry, const Wi
     check({"phi", &values.phi});
     check({"dphi_dt", &values.dphi_dt});
   }
+  validate_horizon(values, window, who);
+}
+
+void validate_horizon(const DonorValues& values, const Window& window, const std::string& who) {
   const bool holds =
       (values.horizon_begin <= window.t_begin || same_time(values.horizon_begin, window.t_begin, window)) &&
       (values.horizon_end >= window.t_end || same_time(values.horizon_end, window.t_end, window));

@@ -18,6 +18,9 @@ void validate(const DonorValues& values, const DonorGeometry& geometry, const Wi
               const std::string& who);
 void validate(const Samples& samples, const Targets& targets, const Window& window, const std::string& who);
 
+/// The horizon holds the window.
+void validate_horizon(const DonorValues& values, const Window& window, const std::string& who);
+
 /// How many of n values are NaN or infinite where `matters` (null: everywhere) is not 0.
 std::size_t count_not_finite(const double* values, std::size_t n, const std::uint8_t* matters = nullptr);
 

@@ -20,7 +20,9 @@ class Job {
   /// comm: collective over the world. throws CouplingError: other magic, other protocol version, three roles,
   /// one role twice under different program versions
   Job(int& argc, char**& argv, Role role, const std::string& program_version);
-  ~Job();  ///< MPI_Finalize
+  /// MPI_Finalize, when it can be done without leaving the partner hanging: after both have said goodbye, or
+  /// when the coupling has not begun on either side. Else the world is aborted with a non-zero status.
+  ~Job();
   Job(const Job&) = delete;
   Job& operator=(const Job&) = delete;
 
@@ -30,12 +32,15 @@ class Job {
   int size() const;
   bool has_partner() const;
   int partner_size() const;
+  std::string program() const;          ///< name of this program's executable
+  std::string partner_program() const;  ///< and of the partner's; empty without one
   std::string partner_version() const;
   MPI_Comm intercomm() const;  ///< MPI_COMM_NULL without a partner
 
   /// Compares what must agree. Every mismatch (key, mine, theirs) is printed by both programs; then throws
-  /// CouplingError. comm: collective over both programs
-  void compare(const Contract& mine) const;
+  /// CouplingError. `deadline` [s]: how long the partner may take to come here. comm: collective over both
+  /// programs
+  void compare(const Contract& mine, double deadline = 600.0) const;
 
   std::unique_ptr<FvPartner> fv_partner(const RunPlan& plan) const;    ///< for role sph
   std::unique_ptr<SphPartner> sph_partner(const RunPlan& plan) const;  ///< for role fv
@@ -46,9 +51,10 @@ class Job {
 };
 
 /// What main calls: builds the Job, runs `body`, and is the one place where a program dies. An exception is
-/// printed with program, rank and the window last announced by set_place(), then MPI_Abort with a non-zero
-/// status ends both programs. A --help or --check that ends before any partner is needed returns its status
-/// through MPI_Finalize in both programs.
+/// printed with program, rank and the window last announced by set_place(), the partner is told, then
+/// MPI_Abort with a non-zero status ends both programs. A body that returns before the coupling has begun
+/// (--help, --check) tells the partner so: if both do, the job ends in peace; if the partner counted on it,
+/// the partner ends the job. A body that returns after coupling without goodbye aborts the job.
 int run_program(int argc, char** argv, Role role, const std::string& version,
                 const std::function<int(Job&, int, char**)>& body);
 

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <mpi.h>
+
+#include <string>
+#include <vector>
+
+#include "littoral/coupler/analytic.hpp"
+#include "littoral/coupler/job.hpp"
+
+namespace littoral::mock {
+
+/// What a mock partner is asked to play. All lengths in m, times in s.
+struct Script {
+  int dimension = 2;
+  coupler::Box region{{0.0, 0.0, -0.5}, {1.0, 0.4, 0.0}};  // where mock_sph has its particles and layers
+  coupler::Box grid{{-0.5, -0.3, -1.2}, {1.5, 0.7, 0.4}};  // cells of mock_fv
+  double spacing = 0.1;
+  bool with_phi = true;
+  bool last_rank_is_empty = false;
+  bool split_along_z = false;  // how a program's ranks divide its box; else along x
+  double dt_stable = 0.02;
+  double dt = 0.05;  // of the window
+  double end = 0.25;
+  std::string schedule = "serial";
+  double deadline = 20.0;
+  int stop_at = -1;            // window before which this program asks for the end
+  int region_changes_at = -1;  // window before which it asks for a new epoch
+  bool wants_particles = false;
+  double work = 0.0;  // [s] pretends to compute so long in each window
+
+  std::string misbehave;  // empty: plays by the rules
+  int at = 2;             // in this window
+  double delay = 1.0;     // of `late`
+};
+
+/// Reads --key value pairs; throws ConfigError for what it does not know.
+Script parse(int argc, char** argv);
+
+coupler::RunPlan plan_of(const Script& script);
+coupler::Contract contract_of(const Script& script);
+
+/// Linear in space and time: trilinear weights and (24) reproduce it to round-off, so every value that
+/// crosses can be checked by the other side.
+coupler::FlowState linear_flow(const coupler::Vec3& x, double t);
+
+/// Part `rank` of `box`.
+coupler::Box part_of(const coupler::Box& box, int rank, int size, const Script& script);
+
+/// Cell centres of a box: block of the lattice of spacing h, y = 0 in the plane.
+coupler::DonorPatch lattice(const coupler::Box& box, double spacing, int dimension);
+
+// The two scripts. Each returns when it has said goodbye; throws where the partner's values are not the
+// flow's.
+int play_sph(coupler::Job& job, const Script& script);
+int play_fv(coupler::Job& job, const Script& script);
+
+/// Misbehaviour that is no more than leaving, being silent or slow, at a window's begin. True: leave now.
+bool misbehave_at_begin(const Script& script, std::int64_t window);
+/// Misbehaviour that replaces message `kind` to the partner's rank 0 by bytes that do not fit. True: done.
+bool misbehave_in_message(const Script& script, const coupler::Job& job, bool donors,
+                          const coupler::Window& window, std::size_t count);
+/// Greets with another protocol version, by hand; never returns normally.
+int play_wrong_version(int argc, char** argv, coupler::Role role);
+
+}  // namespace littoral::mock

@@ -1,0 +1,142 @@
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <thread>
+
+#include "littoral/error.hpp"
+#include "mock.hpp"
+
+namespace littoral::mock {
+
+using namespace coupler;
+
+namespace {
+
+Targets targets_of(const Box& part, const Script& script) {
+  Targets targets;
+  const DonorPatch cells = lattice(part, script.spacing, script.dimension);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const Vec3 x{cells.x[i], cells.y[i], cells.z[i]};
+    if (!script.region.contains(x)) continue;
+    targets.x.push_back(x[0]);
+    targets.y.push_back(x[1]);
+    targets.z.push_back(x[2]);
+    targets.wants.push_back(
+        static_cast<std::uint8_t>(script.with_phi ? wants_state | wants_phi : wants_state));
+  }
+  return targets;
+}
+
+void fill(const DonorGeometry& geometry, const Window& window, bool with_phi, DonorValues& donors) {
+  donors.resize(geometry.size(), with_phi);
+  donors.time = donors.horizon_begin = window.t_begin;
+  donors.horizon_end = window.t_end;
+  std::size_t c = 0;
+  for (const auto& patch : geometry.patches)
+    for (std::size_t i = 0; i < patch.size(); ++i, ++c) {
+      const Vec3 x{patch.x[i], patch.y[i], patch.z[i]};
+      const FlowState now = linear_flow(x, window.t_begin), later = linear_flow(x, window.t_begin + 1.0);
+      donors.p[c] = now.p;
+      donors.u[c] = now.u[0];
+      donors.v[c] = now.u[1];
+      donors.w[c] = now.u[2];
+      donors.dp_dt[c] = later.p - now.p;
+      donors.du_dt[c] = later.u[0] - now.u[0];
+      donors.dv_dt[c] = later.u[1] - now.u[1];
+      donors.dw_dt[c] = later.u[2] - now.u[2];
+      if (!with_phi) continue;
+      donors.phi[c] = now.phi;
+      donors.dphi_dt[c] = later.phi - now.phi;
+    }
+}
+
+void check_samples(const Targets& targets, const Samples& samples, const Window& window) {
+  std::size_t uncovered = 0;
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    if (samples.status[i] != SampleStatus::ok) {
+      ++uncovered;
+      continue;
+    }
+    // the other side evaluates the same formula at the same point: equal to the bit
+    const FlowState exact = linear_flow({targets.x[i], targets.y[i], targets.z[i]}, window.t_end);
+    if (samples.p[i] != exact.p || samples.u[i] != exact.u[0] || samples.w[i] != exact.u[2] ||
+        (!samples.phi.empty() && samples.phi[i] != exact.phi))
+      throw CouplingError("a sample differs from the flow");
+  }
+  if (uncovered > 0) throw CouplingError(std::to_string(uncovered) + " samples are not covered");
+}
+
+}  // namespace
+
+int play_fv(Job& job, const Script& script) {
+  job.compare(contract_of(script), script.deadline);
+  const RunPlan plan = plan_of(script);
+  auto partner = job.sph_partner(plan);
+  const Box part = part_of(script.grid, job.rank(), job.size(), script);
+  DonorGeometry geometry;
+  Targets targets;
+  if (script.misbehave != "zero-points") {
+    // one ghost layer on each side, so that no dual cell is missing between two ranks
+    if (!part.empty())
+      geometry.patches.push_back(lattice(part.grown(script.spacing), script.spacing, script.dimension));
+    targets = targets_of(part, script);
+  }
+  partner->offer(geometry, targets);
+  Proposal proposal;
+  proposal.dt_stable = 1e30;
+  proposal.wants_particles = script.wants_particles;
+  std::int64_t windows = 0;
+  DonorValues donors;
+  Samples samples;
+  ParticleStates states;
+  for (;;) {
+    proposal.stop = windows == script.stop_at;
+    proposal.reason = proposal.stop ? "mock_fv has had enough" : "";
+    proposal.region_changed = windows == script.region_changes_at;
+    const Agreement agreement = partner->agree(proposal);
+    if (agreement.stop) {
+      partner->goodbye(agreement.reason);
+      break;
+    }
+    const Window& window = agreement.window;
+    set_place(window.index, window.t_begin);
+    if (agreement.region_changed) partner->offer(geometry, targets);
+    if (misbehave_at_begin(script, window.index)) return 0;
+    if (script.misbehave == "early-goodbye" && window.index == script.at) {
+      partner->goodbye("mock_fv leaves early");
+      return 0;
+    }
+    std::this_thread::sleep_for(std::chrono::duration<double>(script.work));
+    for (int pass = 0; pass < plan.schedule.sph_passes(); ++pass) {
+      if (!misbehave_in_message(script, job, true, window, geometry.size())) {
+        fill(geometry, window, script.with_phi, donors);
+        if (script.misbehave == "nan" && window.index == script.at)
+          donors.p[donors.p.size() / 2] = std::nan("");
+        partner->send(window, donors);
+        if (script.misbehave == "twice" && window.index == script.at) partner->send(window, donors);
+      }
+      partner->receive(window, samples);
+      check_samples(targets, samples, window);
+    }
+    if (agreement.wants_particles) {
+      partner->receive_particles(window, states);
+      for (std::size_t i = 0; i < states.size(); ++i)
+        if (states.p[i] != linear_flow({states.x[i], states.y[i], states.z[i]}, window.t_end).p ||
+            states.V[i] != 1e-3)
+          throw CouplingError("a particle differs from the flow");
+      if (job.size() == 1 && states.size() == 0) throw CouplingError("no particles came");
+    }
+    Ledger ledger;
+    ledger.fv_mass_flux = 0.5;
+    const Ledger both = partner->exchange(window, ledger);
+    if (both.fv_mass_flux != 0.5 * job.size() || both.mass_inside != job.partner_size())
+      throw CouplingError("the ledger does not add up");
+    ++windows;
+  }
+  if (job.rank() == 0)
+    std::printf("mock_fv: %lld windows with %s, waited %.3f s\n", static_cast<long long>(windows),
+                partner->description().c_str(), partner->waited());
+  return 0;
+}
+
+}  // namespace littoral::mock

@@ -1,0 +1,139 @@
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <random>
+#include <thread>
+
+#include "littoral/coupler/donor_search.hpp"
+#include "littoral/error.hpp"
+#include "mock.hpp"
+
+namespace littoral::mock {
+
+using namespace coupler;
+
+namespace {
+
+// Trilinear weights and (24) are exact for the flow; values are about 10.
+constexpr double k_round_off = 1e-11;
+
+/// Interpolates at random points of `needs` and compares with the flow; returns the worst error.
+double check_donors(const DonorGeometry& geometry, const DonorValues& values, const Box& needs,
+                    const Window& window, const Script& script) {
+  const DonorSearch search(geometry, script.dimension);
+  std::mt19937 random(static_cast<unsigned>(window.index));
+  std::int64_t hint = -1;
+  double worst = 0.0;
+  for (int i = 0; i < 50; ++i) {
+    Vec3 x;
+    for (std::size_t d = 0; d < 3; ++d)
+      x[d] = std::uniform_real_distribution(needs.lower[d], needs.upper[d])(random);
+    if (script.dimension == 2) x[1] = 0.0;
+    const Donor donor = search.find(x, hint);
+    if (!donor.found) throw CouplingError("a point of the layers has no donor");
+    const double t = std::uniform_real_distribution(window.t_begin, window.t_end)(random);
+    const DonorState state = interpolate(values, donor, t);
+    const FlowState exact = linear_flow(x, t);
+    for (const double error : {state.p - exact.p, state.u[0] - exact.u[0], state.u[1] - exact.u[1],
+                               state.u[2] - exact.u[2], script.with_phi ? state.phi - exact.phi : 0.0})
+      worst = std::max(worst, std::abs(error));
+  }
+  if (!(worst < k_round_off)) throw CouplingError("donors differ from the flow by " + std::to_string(worst));
+  return worst;
+}
+
+ParticleStates particles_of(const Box& covers, double t) {
+  ParticleStates states;
+  states.time = t;
+  if (covers.empty()) return states;
+  for (int i = 0; i < 10; ++i) {
+    const double a = (i + 0.5) / 10.0;
+    const Vec3 x{covers.lower[0] + a * (covers.upper[0] - covers.lower[0]), 0.0,
+                 covers.lower[2] + a * (covers.upper[2] - covers.lower[2])};
+    const FlowState state = linear_flow(x, t);
+    const std::array<double, 8> values{x[0], x[1], x[2], state.u[0], state.u[1], state.u[2], state.p, 1e-3};
+    std::size_t c = 0;
+    for (auto* column :
+         {&states.x, &states.y, &states.z, &states.u, &states.v, &states.w, &states.p, &states.V})
+      column->push_back(values[c++]);
+    states.on_surface.push_back(static_cast<std::uint8_t>(i % 2));
+    states.nx.push_back(0.0);
+    states.ny.push_back(0.0);
+    states.nz.push_back(1.0);
+  }
+  return states;
+}
+
+}  // namespace
+
+int play_sph(Job& job, const Script& script) {
+  job.compare(contract_of(script), script.deadline);
+  const RunPlan plan = plan_of(script);
+  auto partner = job.fv_partner(plan);
+  Box part = part_of(script.region, job.rank(), job.size(), script);
+  partner->announce(part, part.grown(script.spacing));
+  Proposal proposal;
+  proposal.dt_stable = script.dt_stable;
+  double worst = 0.0;
+  std::int64_t windows = 0;
+  DonorValues donors;
+  Samples samples;
+  for (;;) {
+    proposal.stop = windows == script.stop_at;
+    proposal.reason = proposal.stop ? "mock_sph has had enough" : "";
+    proposal.region_changed = windows == script.region_changes_at;
+    const Agreement agreement = partner->agree(proposal);
+    if (agreement.stop) {
+      partner->goodbye(agreement.reason);
+      break;
+    }
+    const Window& window = agreement.window;
+    set_place(window.index, window.t_begin);
+    if (agreement.region_changed) {
+      part.lower[2] += 0.01;
+      partner->announce(part, part.grown(script.spacing));
+    }
+    if (misbehave_at_begin(script, window.index)) return 0;
+    if (script.misbehave == "early-goodbye" && window.index == script.at) {
+      partner->goodbye("mock_sph leaves early");
+      return 0;
+    }
+    std::this_thread::sleep_for(std::chrono::duration<double>(script.work));
+    for (int pass = 0; pass < plan.schedule.sph_passes(); ++pass) {
+      partner->receive(window, donors);
+      if (!part.empty())
+        worst = std::max(worst, check_donors(partner->donor_geometry(), donors, part, window, script));
+      const Targets& targets = partner->targets();
+      if (misbehave_in_message(script, job, false, window, targets.size())) continue;
+      samples.resize(targets.size(), script.with_phi);
+      samples.time = window.t_end;
+      for (std::size_t i = 0; i < targets.size(); ++i) {
+        const FlowState state = linear_flow({targets.x[i], targets.y[i], targets.z[i]}, window.t_end);
+        samples.p[i] = state.p;
+        samples.u[i] = state.u[0];
+        samples.v[i] = state.u[1];
+        samples.w[i] = state.u[2];
+        if (script.with_phi) samples.phi[i] = state.phi;
+        samples.coverage[i] = 1.0;
+        samples.status[i] = SampleStatus::ok;
+      }
+      if (script.misbehave == "nan" && window.index == script.at && !samples.u.empty())
+        samples.u[0] = std::nan("");
+      partner->send(window, samples);
+      if (script.misbehave == "twice" && window.index == script.at) partner->send(window, samples);
+    }
+    if (agreement.wants_particles) partner->send_particles(window, particles_of(part, window.t_end));
+    Ledger ledger;
+    ledger.mass_inside = 1.0;
+    const Ledger both = partner->exchange(window, ledger);
+    if (both.mass_inside != job.size() || both.fv_mass_flux != 0.5 * job.partner_size())
+      throw CouplingError("the ledger does not add up");
+    ++windows;
+  }
+  if (job.rank() == 0)
+    std::printf("mock_sph: %lld windows with %s, worst donor error %.1e, waited %.3f s\n",
+                static_cast<long long>(windows), partner->description().c_str(), worst, partner->waited());
+  return 0;
+}
+
+}  // namespace littoral::mock
