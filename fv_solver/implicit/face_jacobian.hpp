@@ -1,0 +1,190 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "implicit/level_grid.hpp"
+#include "physics/equations.hpp"
+
+namespace littoral::fv {
+
+/// What the linear correction has to know of the equations and of the time step.
+template <int D>
+struct CorrectionPhysics {
+  Fluid<D> fluid;
+  WaveSpeeds speeds;
+  BackwardDifference time;
+  double forcing_psi = 0.0;  // [s^2/m^2] d rho/d p in the mass row's forcing
+};
+
+template <int D>
+using SmallMatrix = std::array<std::array<double, D + 1>, D + 1>;
+
+/// The state a face sees on one side.
+template <int D>
+struct FaceState {
+  double p = 0.0;           // [Pa]
+  std::array<double, D> u;  // [m/s]
+};
+
+/// Derivatives of the first-order flux through a face by the states on its two sides, scaled:
+/// unknowns (p / (rho0 c0), u), rows (mass c0 / rho0, momentum / rho0), so that the entries compare.
+///
+///   m = rho [ (u_L + u_R).S / 2 - S (p_R - p_L) / (2 rho c_p) ]
+///   F = m u_upwind + S (p_L + p_R)/2 - S rho c0 (u_R - u_L).n / 2 - rho nu S^2/V_f (u_R - u_L)
+/// in    area S [m^(D-1)], pointing from left to right; volume V_f of the face's cell [m^D]
+template <int D>
+inline void face_jacobian(const std::array<double, D>& area, double volume, const FaceState<D>& left,
+                          const FaceState<D>& right, const CorrectionPhysics<D>& physics,
+                          SmallMatrix<D>& by_left, SmallMatrix<D>& by_right) {
+  double s2 = 0.0, flow = 0.0;
+  for (std::size_t k = 0; k < D; ++k) {
+    s2 += area[k] * area[k];
+    flow += 0.5 * (left.u[k] + right.u[k]) * area[k];
+  }
+  if (s2 <= 0.0) {  // a face collapsed to an axis passes nothing
+    by_left = by_right = SmallMatrix<D>{};
+    return;
+  }
+  const double s = std::sqrt(s2);
+  const double c0 = physics.speeds.c0;
+  const double density_by_p = c0 * physics.fluid.inverse_c2;  // d(rho/rho0)/dP
+  const double pressure_term = 0.5 * c0 * s / physics.speeds.mass(volume / s, physics.time.dt);
+  const auto& upwind = flow >= 0.0 ? left.u : right.u;
+
+  // dm/rho0 by the scaled unknowns
+  std::array<double, D + 1> m_left, m_right;
+  m_left[0] = pressure_term + density_by_p * std::max(flow, 0.0);
+  m_right[0] = -pressure_term + density_by_p * std::min(flow, 0.0);
+  for (std::size_t k = 0; k < D; ++k) m_left[k + 1] = m_right[k + 1] = 0.5 * area[k];
+
+  const double friction = physics.fluid.viscosity > 0.0 ? physics.fluid.viscosity * s2 / volume : 0.0;
+  const double carry_left = std::max(flow, 0.0) + friction;
+  const double carry_right = std::min(flow, 0.0) - friction;
+  for (std::size_t j = 0; j <= D; ++j) {
+    by_left[0][j] = c0 * m_left[j];
+    by_right[0][j] = c0 * m_right[j];
+  }
+  for (std::size_t i = 0; i < D; ++i) {
+    for (std::size_t j = 0; j <= D; ++j) {
+      by_left[i + 1][j] = upwind[i] * m_left[j];
+      by_right[i + 1][j] = upwind[i] * m_right[j];
+    }
+    by_left[i + 1][0] += 0.5 * c0 * area[i];
+    by_right[i + 1][0] += 0.5 * c0 * area[i];
+    by_left[i + 1][i + 1] += carry_left;
+    by_right[i + 1][i + 1] += carry_right;
+    for (std::size_t j = 0; j < D; ++j) {
+      const double acoustic = 0.5 * c0 * area[i] * area[j] / s;
+      by_left[i + 1][j + 1] += acoustic;
+      by_right[i + 1][j + 1] -= acoustic;
+    }
+  }
+}
+
+/// Physical-time term, gravity on the density's correction, and the forcing K/delta (21): the cell's own
+/// block.
+template <int D>
+inline void add_cell_jacobian(double volume, double forcing, const FaceState<D>& state,
+                              const CorrectionPhysics<D>& physics, SmallMatrix<D>& block) {
+  const double rate = volume * (physics.time.a0 + forcing);
+  const double c0 = physics.speeds.c0;
+  const double density_by_p = c0 * physics.fluid.inverse_c2;
+  block[0][0] += volume * c0 * (physics.time.a0 * density_by_p + forcing * c0 * physics.forcing_psi);
+  for (std::size_t i = 0; i < D; ++i) {
+    block[i + 1][i + 1] += rate;
+    block[i + 1][0] += volume * density_by_p * (physics.time.a0 * state.u[i] - physics.fluid.gravity[i]);
+  }
+}
+
+/// Derivative of the flux through a boundary face by the state of the cell inside, as the residual closes that
+/// face; scaled as face_jacobian.
+/// in    area pointing outward; volume of the cell inside; imposed_distance see LevelGrid
+template <int D>
+inline SmallMatrix<D> boundary_jacobian(EdgeCondition condition, const std::array<double, D>& area, double volume,
+                                        const FaceState<D>& inside, const CorrectionPhysics<D>& physics,
+                                        double far_speed, double imposed_distance) {
+  SmallMatrix<D> block{};
+  double s2 = 0.0, flow = 0.0, speed2 = 0.0;
+  for (std::size_t k = 0; k < D; ++k) {
+    s2 += area[k] * area[k];
+    flow += inside.u[k] * area[k];
+    speed2 += inside.u[k] * inside.u[k];
+  }
+  if (s2 <= 0.0) return block;
+  const double s = std::sqrt(s2), c0 = physics.speeds.c0;
+  const auto push = [&](double part) {  // pressure on the face, from the cell inside
+    for (std::size_t i = 0; i < D; ++i) block[i + 1][0] += part * c0 * area[i];
+  };
+  const auto rub = [&] {  // the face's velocity is known
+    for (std::size_t i = 0; i < D; ++i) block[i + 1][i + 1] += 2.0 * physics.fluid.viscosity * s2 / volume;
+  };
+  const auto carry = [&](double speed, double part) {  // m = part (u.S + S p/(rho0 speed)), and what it carries
+    std::array<double, D + 1> m;
+    m[0] = part * c0 * s / speed + c0 * physics.fluid.inverse_c2 * std::max(flow, 0.0);
+    for (std::size_t k = 0; k < D; ++k) m[k + 1] = part * area[k];
+    for (std::size_t j = 0; j <= D; ++j) {
+      block[0][j] += c0 * m[j];
+      for (std::size_t i = 0; i < D; ++i) block[i + 1][j] += inside.u[i] * m[j];
+    }
+    for (std::size_t i = 0; i < D; ++i) block[i + 1][i + 1] += std::max(flow, 0.0);
+  };
+  switch (condition) {
+    case EdgeCondition::wall:
+      push(1.0);
+      rub();
+      break;
+    case EdgeCondition::slip:
+    case EdgeCondition::link:
+      push(1.0);
+      break;
+    case EdgeCondition::inflow:
+      push(1.0);
+      rub();
+      break;
+    case EdgeCondition::outflow:
+      carry(physics.speeds.mass(volume / s, physics.time.dt), 1.0);
+      break;
+    case EdgeCondition::far_field: {
+      const double speed = far_speed > 0.0 ? far_speed : std::max(std::sqrt(speed2), 0.1 * c0);
+      carry(speed, 0.5);
+      push(0.5);
+      for (std::size_t i = 0; i < D; ++i)
+        for (std::size_t j = 0; j < D; ++j) block[i + 1][j + 1] += 0.5 * speed * area[i] * area[j] / s;
+      break;
+    }
+    case EdgeCondition::imposed: {
+      // linear from the cell through the known value: the ghost's correction is `image` times the cell's
+      const double image = -(1.0 - imposed_distance) / (1.0 + imposed_distance);
+      SmallMatrix<D> by_ghost;
+      face_jacobian<D>(area, volume, inside, inside, physics, block, by_ghost);
+      for (std::size_t i = 0; i <= D; ++i)
+        for (std::size_t j = 0; j <= D; ++j) block[i][j] += image * by_ghost[i][j];
+      break;
+    }
+  }
+  return block;
+}
+
+/// How a correction continues beyond a face when levels are interpolated: the ghost's value is this matrix
+/// times the cell's.
+template <int D>
+inline SmallMatrix<D> mirror(EdgeCondition condition, const std::array<double, D>& area, double imposed_distance) {
+  SmallMatrix<D> m{};
+  double s2 = 0.0;
+  for (double a : area) s2 += a * a;
+  const double image = -(1.0 - imposed_distance) / (1.0 + imposed_distance);
+  const bool anchored = condition == EdgeCondition::imposed || condition == EdgeCondition::far_field;
+  m[0][0] = anchored ? image : condition == EdgeCondition::outflow ? -1.0 : 1.0;
+  const bool known_velocity = condition == EdgeCondition::wall || condition == EdgeCondition::inflow;
+  for (std::size_t i = 0; i < D; ++i) {
+    m[i + 1][i + 1] = anchored ? image : known_velocity ? -1.0 : 1.0;
+    if (condition == EdgeCondition::slip && s2 > 0.0)
+      for (std::size_t j = 0; j < D; ++j) m[i + 1][j + 1] -= 2.0 * area[i] * area[j] / s2;
+  }
+  return m;
+}
+
+}  // namespace littoral::fv

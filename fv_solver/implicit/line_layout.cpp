@@ -1,0 +1,134 @@
+#include "implicit/line_layout.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace littoral::fv {
+
+namespace {
+
+/// Smallest colour that none of the line's coloured neighbours has; lines are visited in index order, so a
+/// plain grid comes out as a checkerboard.
+template <int D>
+std::vector<int> colour_lines(const LevelGrid<D>& grid, int direction) {
+  std::vector<int> colour(grid.face_cells(direction), -1);
+  std::array<int, D> plane = grid.extent.n;
+  plane[static_cast<std::size_t>(direction)] = 1;
+  for_each_cell<D>(Extent<D>(plane), [&](const auto& index, std::ptrdiff_t) {
+    unsigned taken = 0;
+    for (std::size_t d = 0; d < D; ++d) {
+      if (static_cast<int>(d) == direction) continue;
+      for (int step : {-1, 1}) {
+        auto other = index;
+        other[d] += step;
+        if (grid.periodic[d]) other[d] = (other[d] + plane[d]) % plane[d];
+        if (other[d] < 0 || other[d] >= plane[d]) continue;
+        const int c = colour[grid.face_index(direction, other)];
+        if (c >= 0) taken |= 1u << c;
+      }
+    }
+    int c = 0;
+    while (taken & (1u << c)) ++c;
+    colour[grid.face_index(direction, index)] = c;
+  });
+  return colour;
+}
+
+}  // namespace
+
+template <int D>
+LineLayout line_layout(const LevelGrid<D>& grid, int direction) {
+  const auto dir = static_cast<std::size_t>(direction);
+  LineLayout layout;
+  layout.direction = direction;
+  layout.length = grid.extent.n[dir];
+  layout.stride = grid.extent.stride[dir];
+  layout.cyclic = grid.periodic[dir] && layout.length > 1;
+
+  const std::vector<int> colour = colour_lines(grid, direction);
+  const int n_colours = *std::max_element(colour.begin(), colour.end()) + 1;
+  std::array<int, D> plane = grid.extent.n;
+  plane[dir] = 1;
+  for (int c = 0; c < n_colours; ++c) {
+    const std::size_t begin = layout.bundles.size();
+    Extent<D> lines(plane);
+    lines.stride = grid.extent.stride;
+    lines.origin = grid.extent.origin;
+    for_each_cell<D>(lines, [&](const auto& index, std::ptrdiff_t) {
+      if (colour[grid.face_index(direction, index)] != c) return;
+      if (layout.bundles.size() == begin || layout.bundles.back().n_lines == k_lanes)
+        layout.bundles.emplace_back();
+      auto& bundle = layout.bundles.back();
+      bundle.first[static_cast<std::size_t>(bundle.n_lines++)] = grid.extent.at(index);
+    });
+    layout.colour_end.push_back(layout.bundles.size());
+  }
+  for (auto& bundle : layout.bundles)
+    for (int l = bundle.n_lines; l < k_lanes; ++l)
+      bundle.first[static_cast<std::size_t>(l)] = bundle.first[static_cast<std::size_t>(bundle.n_lines - 1)];
+  return layout;
+}
+
+template <int D>
+std::vector<int> stiff_directions(const LevelGrid<D>& grid) {
+  // thickness h_d = V/S_d; coupling through the faces of direction d goes with 1/h_d^2
+  std::array<std::vector<double>, D> thickness;
+  for_each_cell<D>(grid.extent, [&](const auto&, std::ptrdiff_t c) {
+    if (!grid.solved(c)) return;
+    for (std::size_t d = 0; d < D; ++d) {
+      double s2 = 0.0;
+      for (std::size_t k = 0; k < D; ++k) {
+        const double a = 0.5 * (grid.area[d][k][static_cast<std::size_t>(c)] +
+                                grid.area[d][k][static_cast<std::size_t>(c + grid.extent.stride[d])]);
+        s2 += a * a;
+      }
+      thickness[d].push_back(grid.volume[static_cast<std::size_t>(c)] / std::max(std::sqrt(s2), 1e-300));
+    }
+  });
+  const std::size_t n = thickness[0].size();
+  std::vector<int> chosen;
+  std::vector<double> thinnest(n, 0.0);  // of the chosen directions
+  while (chosen.size() < D) {
+    int best = -1;
+    double best_gain = 0.0;
+    for (int d = D - 1; d >= 0; --d) {
+      const auto s = static_cast<std::size_t>(d);
+      if (grid.extent.n[s] < 2 || std::find(chosen.begin(), chosen.end(), d) != chosen.end()) continue;
+      double gain = 0.0;
+      if (chosen.empty()) {  // mean logarithm of the anisotropy
+        for (std::size_t i = 0; i < n; ++i) {
+          double thickest = 0.0;
+          for (std::size_t e = 0; e < D; ++e) thickest = std::max(thickest, thickness[e][i]);
+          gain += std::log(thickest / thickness[s][i]);
+        }
+        gain =
+            gain / static_cast<double>(std::max<std::size_t>(n, 1)) + (grid.periodic[s] ? 0.0 : 0.1) + 1e-3;
+      } else {
+        std::size_t thinner = 0;
+        for (std::size_t i = 0; i < n; ++i)
+          if (2.0 * thickness[s][i] < thinnest[i]) ++thinner;
+        gain = static_cast<double>(thinner) / static_cast<double>(std::max<std::size_t>(n, 1));
+        if (gain < 0.05) gain = 0.0;
+      }
+      if (gain > best_gain * (1.0 + 1e-6)) {
+        best_gain = gain;
+        best = d;
+      }
+    }
+    if (best < 0) break;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double h = thickness[static_cast<std::size_t>(best)][i];
+      thinnest[i] = chosen.empty() ? h : std::min(thinnest[i], h);
+    }
+    chosen.push_back(best);
+  }
+  if (chosen.empty()) chosen.push_back(D - 1);
+  return chosen;
+}
+
+template LineLayout line_layout(const LevelGrid<2>&, int);
+template LineLayout line_layout(const LevelGrid<3>&, int);
+template std::vector<int> stiff_directions(const LevelGrid<2>&);
+template std::vector<int> stiff_directions(const LevelGrid<3>&);
+
+}  // namespace littoral::fv

@@ -1,0 +1,219 @@
+#include "implicit/multigrid.hpp"
+
+#include <algorithm>
+
+namespace littoral::fv {
+
+template <int D, class Real>
+struct Multigrid<D, Real>::BlockLevel {
+  LevelGrid<D> grid;
+  std::array<int, D> ratio{};                    // to the next level
+  State<D> state;                                // frozen; of the finest level only a view, see build
+  std::vector<int> directions;                   // of the lines, stiffest first
+  std::vector<LineOperator<D, Real>> operators;  // one a direction
+  std::unique_ptr<Transfer<D>> transfer;         // to the next level
+  Correction<D, Real> b, e, r;
+  std::vector<std::pair<std::size_t, Real>> damped;  // forced cells and a0/(a0 + K/delta)
+};
+
+template <int D, class Real>
+struct Multigrid<D, Real>::Level {
+  std::vector<BlockLevel> blocks;
+};
+
+template <int D, class Real>
+Multigrid<D, Real>::Multigrid(std::vector<LevelGrid<D>> blocks, const MultigridOptions& options)
+    : options_(options) {
+  levels_.push_back(std::make_unique<Level>());
+  for (auto& grid : blocks) {
+    levels_[0]->blocks.emplace_back();
+    levels_[0]->blocks.back().grid = std::move(grid);
+  }
+  for (;;) {
+    Level& level = *levels_.back();
+    bool coarsens = static_cast<int>(levels_.size()) < options.max_levels;
+    for (auto& block : level.blocks) {
+      block.directions = stiff_directions(block.grid);
+      for (int d : block.directions) block.operators.emplace_back(block.grid, d);
+      for (Correction<D, Real>* field : {&block.b, &block.e, &block.r})
+        field->assign_zero(block.grid.extent.size);
+      block.ratio = coarsening_ratio(block.grid);
+      bool any = false;
+      for (int r : block.ratio) any = any || r > 1;
+      coarsens = coarsens && any;  // overlapping blocks must all stop at the same level
+    }
+    if (!coarsens) break;
+    auto next = std::make_unique<Level>();
+    for (auto& block : level.blocks) {
+      next->blocks.emplace_back();
+      next->blocks.back().grid = coarsen<D>(block.grid, block.ratio);
+      block.transfer = std::make_unique<Transfer<D>>(block.grid, next->blocks.back().grid, block.ratio);
+    }
+    levels_.push_back(std::move(next));
+  }
+  closed_ = true;
+  for (const auto& block : levels_[0]->blocks) {
+    for_each_cell<D>(block.grid.extent, [&](const auto&, std::ptrdiff_t c) {
+      if (block.grid.status[static_cast<std::size_t>(c)] != CellStatus::computed) closed_ = false;
+    });
+    for (const auto& direction : block.grid.edge)
+      for (const auto& side : direction)
+        for (const EdgeCondition condition : side)
+          if (condition != EdgeCondition::wall && condition != EdgeCondition::slip && condition != EdgeCondition::inflow &&
+              condition != EdgeCondition::link) closed_ = false;
+  }
+}
+
+template <int D, class Real>
+Multigrid<D, Real>::~Multigrid() = default;
+template <int D, class Real>
+Multigrid<D, Real>::Multigrid(Multigrid&&) noexcept = default;
+template <int D, class Real>
+Multigrid<D, Real>& Multigrid<D, Real>::operator=(Multigrid&&) noexcept = default;
+
+/// A forced cell answers to its own K first: what the coarse grid may do about its residual shrinks by
+/// a0/(a0 + K), without which large K diverges.
+template <int D, class Real>
+void Multigrid<D, Real>::set_forcing(const std::vector<const Field*>& forcing, double a0) {
+  for (std::size_t l = 0; l < levels_.size(); ++l)
+    for (std::size_t i = 0; i < levels_[l]->blocks.size(); ++i) {
+      BlockLevel& block = levels_[l]->blocks[i];
+      if (l == 0) block.grid.forcing = forcing.empty() || forcing[i] == nullptr ? Field{} : *forcing[i];
+      block.damped.clear();
+      if (!block.grid.forcing.empty())
+        for_each_cell<D>(block.grid.extent, [&](const auto&, std::ptrdiff_t c) {
+          const double k = block.grid.forcing[static_cast<std::size_t>(c)];
+          if (k > 0.0)
+            block.damped.emplace_back(static_cast<std::size_t>(c), static_cast<Real>(a0 / (a0 + k)));
+        });
+      if (l + 1 < levels_.size())
+        levels_[l + 1]->blocks[i].grid.forcing = coarsen<D>(block.grid, block.ratio).forcing;
+    }
+}
+
+template <int D, class Real>
+void Multigrid<D, Real>::build(const std::vector<const State<D>*>& states,
+                               const CorrectionPhysics<D>& physics,
+                               const std::vector<const Field*>& forcing) {
+  if (!forcing.empty()) set_forcing(forcing, physics.time.a0);
+  // A free pressure level makes the coarsest operator singular; the right side has no such part, so a small
+  // anchor there changes nothing but the division by zero.
+  constexpr double k_anchor = 1e-4;
+  for (std::size_t l = 0; l < levels_.size(); ++l) {
+    const bool coarsest = l + 1 == levels_.size();
+    const double anchor = coarsest && closed_ && physics.fluid.inverse_c2 == 0.0 ? k_anchor : 0.0;
+    for (std::size_t i = 0; i < levels_[l]->blocks.size(); ++i) {
+      BlockLevel& block = levels_[l]->blocks[i];
+      const State<D>& state = l == 0 ? *states[i] : block.state;
+      for (auto& op : block.operators) op.build(block.grid, state, physics, anchor);
+      if (coarsest) continue;
+      BlockLevel& next = levels_[l + 1]->blocks[i];
+      average_state<D>(block.grid, block.ratio, state, next.grid, next.state);
+    }
+  }
+}
+
+template <int D, class Real>
+Correction<D, Real>& Multigrid<D, Real>::right_side(std::size_t i) {
+  return levels_[0]->blocks[i].b;
+}
+template <int D, class Real>
+Correction<D, Real>& Multigrid<D, Real>::correction(std::size_t i) {
+  return levels_[0]->blocks[i].e;
+}
+template <int D, class Real>
+int Multigrid<D, Real>::n_levels() const {
+  return static_cast<int>(levels_.size());
+}
+template <int D, class Real>
+const LevelGrid<D>& Multigrid<D, Real>::grid(int level, std::size_t i) const {
+  return levels_[static_cast<std::size_t>(level)]->blocks[i].grid;
+}
+template <int D, class Real>
+const std::vector<int>& Multigrid<D, Real>::directions(std::size_t i) const {
+  return levels_[0]->blocks[i].directions;
+}
+
+template <int D, class Real>
+void Multigrid<D, Real>::exchange(Level& level) {
+  for (auto& block : level.blocks)
+    for (auto& field : block.e.q) fill_periodic(block.grid, field);
+}
+
+template <int D, class Real>
+void Multigrid<D, Real>::sweep(Level& level, bool forward) {
+  std::size_t steps = 0;  // colours of all directions, in turn
+  for (const auto& block : level.blocks) {
+    std::size_t colours = 0;
+    for (const auto& op : block.operators) colours += static_cast<std::size_t>(op.layout().n_colours());
+    steps = std::max(steps, colours);
+  }
+  for (std::size_t step = 0; step < steps; ++step) {
+    for (auto& block : level.blocks) {
+      std::size_t rest = forward ? step : steps - 1 - step;
+      for (const auto& op : block.operators) {
+        const auto n = static_cast<std::size_t>(op.layout().n_colours());
+        if (rest < n) {
+          op.smooth(static_cast<int>(rest), block.b, block.e);
+          break;
+        }
+        rest -= n;
+      }
+    }
+    exchange(level);
+  }
+}
+
+template <int D, class Real>
+void Multigrid<D, Real>::residual(std::size_t i, Correction<D, Real>& r) {
+  BlockLevel& block = levels_[0]->blocks[i];
+  r.assign_zero(block.grid.extent.size);
+  block.operators[0].residual(block.b, block.e, r);
+}
+
+template <int D, class Real>
+void Multigrid<D, Real>::cycle(bool fresh) {
+  descend(0, fresh);
+}
+
+template <int D, class Real>
+void Multigrid<D, Real>::descend(std::size_t l, bool fresh) {
+  Level& level = *levels_[l];
+  if (fresh)
+    for (auto& block : level.blocks)
+      for (auto& field : block.e.q) std::fill(field.begin(), field.end(), Real(0));
+  else
+    exchange(level);
+  if (l + 1 == levels_.size()) {
+    for (int s = 0; s < options_.coarsest_sweeps; ++s) {
+      sweep(level, true);
+      sweep(level, false);
+    }
+    return;
+  }
+  for (int s = 0; s < options_.pre_sweeps; ++s) sweep(level, true);
+  Level& next = *levels_[l + 1];
+  for (std::size_t i = 0; i < level.blocks.size(); ++i) {
+    BlockLevel& block = level.blocks[i];
+    block.operators[0].residual(block.b, block.e, block.r);
+    for (const auto& [c, factor] : block.damped)
+      for (auto& field : block.r.q) field[c] *= factor;
+    fill_correction_ghosts(block.grid, block.r);
+    block.transfer->restrict_residual(block.r, next.blocks[i].b);
+  }
+  descend(l + 1, true);
+  for (std::size_t i = 0; i < level.blocks.size(); ++i) {
+    BlockLevel& block = level.blocks[i];
+    fill_correction_ghosts(next.blocks[i].grid, next.blocks[i].e);
+    block.transfer->add_prolonged(next.blocks[i].e, block.e);
+  }
+  exchange(level);
+  for (int s = 0; s < options_.post_sweeps; ++s) sweep(level, false);
+}
+
+template class Multigrid<2, float>;
+template class Multigrid<2, double>;
+template class Multigrid<3, float>;
+template class Multigrid<3, double>;
+
+}  // namespace littoral::fv

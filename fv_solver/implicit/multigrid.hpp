@@ -1,0 +1,60 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "implicit/line_operator.hpp"
+#include "implicit/transfer.hpp"
+
+namespace littoral::fv {
+
+struct MultigridOptions {
+  int max_levels = 6;
+  int pre_sweeps = 1;
+  int post_sweeps = 1;      // essential: without post-smoothing the cycle does not pay
+  int coarsest_sweeps = 8;  // there and back each
+};
+
+/// Linear multigrid for the first-order Jacobian of one or several blocks: V-cycles with zebra line sweeps,
+/// blocks re-discretised on every level from averaged states. Several blocks stop at the same level.
+/// Real: float halves the memory traffic and keeps the number of cycles; the state stays double.
+template <int D, class Real>
+class Multigrid {
+ public:
+  Multigrid(std::vector<LevelGrid<D>> blocks, const MultigridOptions& options);
+  ~Multigrid();
+  Multigrid(Multigrid&&) noexcept;
+  Multigrid& operator=(Multigrid&&) noexcept;
+
+  /// Renews all blocks: after a change of dt, of the BDF order, or of the state they are frozen at.
+  /// forcing: K/delta of each block, null where none is forced; may be empty
+  void build(const std::vector<const State<D>*>& states, const CorrectionPhysics<D>& physics,
+             const std::vector<const Field*>& forcing = {});
+
+  /// Right side and correction of block i on the finest level, scaled as face_jacobian says.
+  Correction<D, Real>& right_side(std::size_t i);
+  Correction<D, Real>& correction(std::size_t i);
+
+  /// One V-cycle on A e = b, from the present e (from zero if `fresh`).
+  void cycle(bool fresh = true);
+  /// b - A e on the finest level, into `r`. For tests.
+  void residual(std::size_t i, Correction<D, Real>& r);
+
+  bool closed() const { return closed_; }  ///< nothing on the boundaries anchors the pressure
+  int n_levels() const;
+  const LevelGrid<D>& grid(int level, std::size_t i) const;
+  const std::vector<int>& directions(std::size_t i) const;  ///< of the lines, finest level
+
+ private:
+  struct BlockLevel;
+  struct Level;
+  void sweep(Level& level, bool forward);
+  void exchange(Level& level);
+  void descend(std::size_t l, bool fresh);
+  void set_forcing(const std::vector<const Field*>& forcing, double a0);
+  std::vector<std::unique_ptr<Level>> levels_;
+  MultigridOptions options_;
+  bool closed_ = false;
+};
+
+}  // namespace littoral::fv
