@@ -99,13 +99,14 @@ inline void add_cell_jacobian(double volume, double forcing, const FaceState<D>&
   }
 }
 
-/// Derivative of the flux through a boundary face by the state of the cell inside, as the residual closes that
-/// face; scaled as face_jacobian.
-/// in    area pointing outward; volume of the cell inside; imposed_distance see LevelGrid
+/// Derivative of the flux through a boundary face by the state of the cell inside, as the residual closes
+/// that face; scaled as face_jacobian. in    area pointing outward; volume of the cell inside;
+/// imposed_distance see LevelGrid
 template <int D>
-inline SmallMatrix<D> boundary_jacobian(EdgeCondition condition, const std::array<double, D>& area, double volume,
-                                        const FaceState<D>& inside, const CorrectionPhysics<D>& physics,
-                                        double far_speed, double imposed_distance) {
+inline SmallMatrix<D> boundary_jacobian(EdgeCondition condition, const std::array<double, D>& area,
+                                        double volume, const FaceState<D>& inside,
+                                        const CorrectionPhysics<D>& physics, double far_speed,
+                                        double imposed_distance) {
   SmallMatrix<D> block{};
   double s2 = 0.0, flow = 0.0, speed2 = 0.0;
   for (std::size_t k = 0; k < D; ++k) {
@@ -121,7 +122,8 @@ inline SmallMatrix<D> boundary_jacobian(EdgeCondition condition, const std::arra
   const auto rub = [&] {  // the face's velocity is known
     for (std::size_t i = 0; i < D; ++i) block[i + 1][i + 1] += 2.0 * physics.fluid.viscosity * s2 / volume;
   };
-  const auto carry = [&](double speed, double part) {  // m = part (u.S + S p/(rho0 speed)), and what it carries
+  const auto carry = [&](double speed,
+                         double part) {  // m = part (u.S + S p/(rho0 speed)), and what it carries
     std::array<double, D + 1> m;
     m[0] = part * c0 * s / speed + c0 * physics.fluid.inverse_c2 * std::max(flow, 0.0);
     for (std::size_t k = 0; k < D; ++k) m[k + 1] = part * area[k];
@@ -171,7 +173,8 @@ inline SmallMatrix<D> boundary_jacobian(EdgeCondition condition, const std::arra
 /// How a correction continues beyond a face when levels are interpolated: the ghost's value is this matrix
 /// times the cell's.
 template <int D>
-inline SmallMatrix<D> mirror(EdgeCondition condition, const std::array<double, D>& area, double imposed_distance) {
+inline SmallMatrix<D> mirror(EdgeCondition condition, const std::array<double, D>& area,
+                             double imposed_distance) {
   SmallMatrix<D> m{};
   double s2 = 0.0;
   for (double a : area) s2 += a * a;

@@ -175,9 +175,9 @@ template std::array<int, 3> coarsening_ratio<3>(const LevelGrid<3>&);
 template LevelGrid<2> coarsen<2>(const LevelGrid<2>&, const std::array<int, 2>&);
 template LevelGrid<3> coarsen<3>(const LevelGrid<3>&, const std::array<int, 3>&);
 template void average_state<2>(const LevelGrid<2>&, const std::array<int, 2>&, const State<2>&,
-                            const LevelGrid<2>&, State<2>&);
+                               const LevelGrid<2>&, State<2>&);
 template void average_state<3>(const LevelGrid<3>&, const std::array<int, 3>&, const State<3>&,
-                            const LevelGrid<3>&, State<3>&);
+                               const LevelGrid<3>&, State<3>&);
 template void fill_periodic<2>(const LevelGrid<2>&, std::vector<double>&);
 template void fill_periodic<3>(const LevelGrid<3>&, std::vector<double>&);
 template void fill_periodic<2>(const LevelGrid<2>&, std::vector<float>&);

@@ -125,8 +125,8 @@ void LineOperator<D, Real>::assemble_cell(const LevelGrid<D>& grid, const State<
       if (condition != EdgeCondition::link) {
         if (side == 0)
           for (double& a : area) a = -a;
-        add<D>(blocks[0], boundary_jacobian<D>(condition, area, grid.volume[cs], here, physics, grid.far_speed,
-                                               grid.imposed_distance[d]));
+        add<D>(blocks[0], boundary_jacobian<D>(condition, area, grid.volume[cs], here, physics,
+                                               grid.far_speed, grid.imposed_distance[d]));
         continue;
       }
       const double volume = 0.5 * (grid.volume[cs] + grid.volume[static_cast<std::size_t>(other)]);
@@ -158,7 +158,7 @@ void LineOperator<D, Real>::build(const LevelGrid<D>& grid, const State<D>& stat
   stride_ = grid.extent.stride;
   const auto dir = static_cast<std::size_t>(layout_.direction);
 
-#pragma omp parallel
+#pragma omp parallel if (worth_threads(layout_.bundles.size()))
   {
     std::vector<std::array<SmallMatrix<D>, k_blocks>> line(static_cast<std::size_t>(layout_.length));
 #pragma omp for schedule(static)
@@ -225,7 +225,7 @@ void LineOperator<D, Real>::factorise(std::size_t bundle,
 template <int D, class Real>
 void LineOperator<D, Real>::residual(const Correction<D, Real>& b, const Correction<D, Real>& e,
                                      Correction<D, Real>& r) const {
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (worth_threads(layout_.bundles.size()))
   for (std::size_t bundle = 0; bundle < layout_.bundles.size(); ++bundle) {
     const auto& first = layout_.bundles[bundle].first;
     for (int k = 0; k < layout_.length; ++k) {
@@ -251,7 +251,8 @@ void LineOperator<D, Real>::smooth(int colour, const Correction<D, Real>& b, Cor
   const std::size_t lower = 1 + 2 * dir, upper = lower + 1;
   const int n = layout_.length;
   const int open = layout_.cyclic ? n - 1 : n;
-#pragma omp parallel
+#pragma omp parallel if (worth_threads(layout_.colour_end[static_cast <std::size_t>(colour)] - \
+                                       layout_.colour_begin(colour)))
   {
     std::vector<Column> y(static_cast<std::size_t>(n));
 #pragma omp for schedule(static)

@@ -46,6 +46,10 @@ class LineOperator {
   using Block = std::array<std::array<Lanes, N>, N>;
   using Column = std::array<Lanes, N>;
 
+  /// Coarse levels are too small to wake threads for.
+  bool worth_threads(std::size_t bundles) const {
+    return bundles * static_cast<std::size_t>(layout_.length) * k_lanes > 4000;
+  }
   std::size_t slot(std::size_t bundle, int k) const {
     return bundle * static_cast<std::size_t>(layout_.length) + static_cast<std::size_t>(k);
   }

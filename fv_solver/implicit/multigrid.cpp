@@ -13,7 +13,6 @@ struct Multigrid<D, Real>::BlockLevel {
   std::vector<LineOperator<D, Real>> operators;  // one a direction
   std::unique_ptr<Transfer<D>> transfer;         // to the next level
   Correction<D, Real> b, e, r;
-  std::vector<std::pair<std::size_t, Real>> damped;  // forced cells and a0/(a0 + K/delta)
 };
 
 template <int D, class Real>
@@ -59,8 +58,9 @@ Multigrid<D, Real>::Multigrid(std::vector<LevelGrid<D>> blocks, const MultigridO
     for (const auto& direction : block.grid.edge)
       for (const auto& side : direction)
         for (const EdgeCondition condition : side)
-          if (condition != EdgeCondition::wall && condition != EdgeCondition::slip && condition != EdgeCondition::inflow &&
-              condition != EdgeCondition::link) closed_ = false;
+          if (condition != EdgeCondition::wall && condition != EdgeCondition::slip &&
+              condition != EdgeCondition::inflow && condition != EdgeCondition::link)
+            closed_ = false;
   }
 }
 
@@ -71,23 +71,15 @@ Multigrid<D, Real>::Multigrid(Multigrid&&) noexcept = default;
 template <int D, class Real>
 Multigrid<D, Real>& Multigrid<D, Real>::operator=(Multigrid&&) noexcept = default;
 
-/// A forced cell answers to its own K first: what the coarse grid may do about its residual shrinks by
-/// a0/(a0 + K), without which large K diverges.
 template <int D, class Real>
-void Multigrid<D, Real>::set_forcing(const std::vector<const Field*>& forcing, double a0) {
-  for (std::size_t l = 0; l < levels_.size(); ++l)
-    for (std::size_t i = 0; i < levels_[l]->blocks.size(); ++i) {
-      BlockLevel& block = levels_[l]->blocks[i];
-      if (l == 0) block.grid.forcing = forcing.empty() || forcing[i] == nullptr ? Field{} : *forcing[i];
-      block.damped.clear();
-      if (!block.grid.forcing.empty())
-        for_each_cell<D>(block.grid.extent, [&](const auto&, std::ptrdiff_t c) {
-          const double k = block.grid.forcing[static_cast<std::size_t>(c)];
-          if (k > 0.0)
-            block.damped.emplace_back(static_cast<std::size_t>(c), static_cast<Real>(a0 / (a0 + k)));
-        });
-      if (l + 1 < levels_.size())
-        levels_[l + 1]->blocks[i].grid.forcing = coarsen<D>(block.grid, block.ratio).forcing;
+void Multigrid<D, Real>::set_forcing(const std::vector<const Field*>& forcing) {
+  for (std::size_t i = 0; i < forcing.size(); ++i)
+    levels_[0]->blocks[i].grid.forcing = forcing[i] == nullptr ? Field{} : *forcing[i];
+  for (std::size_t l = 0; l + 1 < levels_.size(); ++l)
+    for (std::size_t i = 0; i < forcing.size(); ++i) {
+      const BlockLevel& block = levels_[l]->blocks[i];
+      levels_[l + 1]->blocks[i].grid.forcing =
+          block.grid.forcing.empty() ? Field{} : coarsen<D>(block.grid, block.ratio).forcing;
     }
 }
 
@@ -95,7 +87,7 @@ template <int D, class Real>
 void Multigrid<D, Real>::build(const std::vector<const State<D>*>& states,
                                const CorrectionPhysics<D>& physics,
                                const std::vector<const Field*>& forcing) {
-  if (!forcing.empty()) set_forcing(forcing, physics.time.a0);
+  if (!forcing.empty()) set_forcing(forcing);
   // A free pressure level makes the coarsest operator singular; the right side has no such part, so a small
   // anchor there changes nothing but the division by zero.
   constexpr double k_anchor = 1e-4;
@@ -196,8 +188,6 @@ void Multigrid<D, Real>::descend(std::size_t l, bool fresh) {
   for (std::size_t i = 0; i < level.blocks.size(); ++i) {
     BlockLevel& block = level.blocks[i];
     block.operators[0].residual(block.b, block.e, block.r);
-    for (const auto& [c, factor] : block.damped)
-      for (auto& field : block.r.q) field[c] *= factor;
     fill_correction_ghosts(block.grid, block.r);
     block.transfer->restrict_residual(block.r, next.blocks[i].b);
   }

@@ -51,7 +51,7 @@ class Multigrid {
   void sweep(Level& level, bool forward);
   void exchange(Level& level);
   void descend(std::size_t l, bool fresh);
-  void set_forcing(const std::vector<const Field*>& forcing, double a0);
+  void set_forcing(const std::vector<const Field*>& forcing);
   std::vector<std::unique_ptr<Level>> levels_;
   MultigridOptions options_;
   bool closed_ = false;

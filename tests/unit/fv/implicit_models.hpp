@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "grid/metrics.hpp"
-#include "implicit/inner_solver.hpp"
+#include "implicit/multigrid_solver.hpp"
 
 // Small blocks, states and dense copies of operators, for the oracles of the inner solver.
 namespace littoral::fv::test {
