@@ -142,6 +142,20 @@ struct MultigridSolver<D>::Levels {
       }
   }
 
+  /// The norm that round-off leaves of fields this large: no cycle gets below it.
+  double round_off(const std::vector<Block<D>>& blocks, const std::vector<State<D>>& state,
+                   const CorrectionPhysics<D>& physics) const {
+    double p = 0.0, speed = physics.speeds.c0;
+    for (std::size_t b = 0; b < cells.size(); ++b)
+      for (const std::ptrdiff_t cell : cells[b]) {
+        const auto c = static_cast<std::size_t>(cell);
+        p = std::max(p, std::abs(state[b].p[c] - blocks[b].reference_pressure[c]));
+        for (std::size_t k = 0; k < D; ++k) speed = std::max(speed, std::abs(state[b].u[k][c]));
+      }
+    return 8.0 * std::numeric_limits<double>::epsilon() *
+           (speed + p / (physics.fluid.density * physics.speeds.c0));
+  }
+
   [[noreturn]] void complain(const std::vector<Block<D>>& blocks, int cycle) const {
     std::size_t at = 0;
     for (std::size_t b = 0; b < cells.size(); ++b)
@@ -164,8 +178,8 @@ template <int D>
 MultigridSolver<D>::~MultigridSolver() = default;
 
 template <int D>
-InnerReport MultigridSolver<D>::solve(const StepProblem<D>& problem, const InnerTolerance& tolerance,
-                                      std::vector<State<D>>& q) {
+StepReport MultigridSolver<D>::solve(const StepProblem<D>& problem, const InnerTolerance& tolerance,
+                                     std::vector<State<D>>& q) {
   if (!levels_ || !levels_->fits(problem.blocks))
     levels_ = std::make_unique<Levels>(problem.blocks, options_.multigrid);
   Levels& levels = *levels_;
@@ -177,13 +191,16 @@ InnerReport MultigridSolver<D>::solve(const StepProblem<D>& problem, const Inner
   }
   const bool floating = levels.multigrid.closed() && physics.fluid.inverse_c2 == 0.0;
   Anderson anderson(options_.anderson_depth, levels.weights);
-  InnerReport report;
+  StepReport report;
+  double round_off = 0.0;
   for (;; ++report.cycles) {
     problem.evaluate(q, levels.rows);
     report.norms.push_back(problem.norm(levels.rows));
     levels.collect(q, physics);
     if (!std::isfinite(report.norms.back())) levels.complain(problem.blocks, report.cycles);
-    report.converged = tolerance.met(report.norms.back(), report.norms.front());
+    if (report.cycles == 0) round_off = levels.round_off(problem.blocks, q, physics);
+    report.converged =
+        tolerance.met(report.norms.back(), report.norms.front()) || report.norms.back() <= round_off;
     if (report.converged || report.cycles == tolerance.max_cycles) return report;
     if (report.cycles == 0) {
       std::vector<const State<D>*> frozen;

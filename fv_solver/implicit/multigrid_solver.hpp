@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "dual_time/inner_solver.hpp"
+#include "dual_time/step_solver.hpp"
 #include "implicit/multigrid.hpp"
 
 namespace littoral::fv {
@@ -23,15 +23,15 @@ LevelGrid<D> level_grid(const Block<D>& block);
 /// is no pseudo-time term: the pseudo-CFL is infinite. Start a step from u extrapolated and p = p^n:
 /// extrapolating both lets forces flip from step to step.
 template <int D>
-class MultigridSolver : public InnerSolver<D> {
+class MultigridSolver : public StepSolver<D> {
  public:
   explicit MultigridSolver(const MultigridSolverOptions& options = {});
   ~MultigridSolver() override;
 
   /// The levels are kept from step to step and built anew when a status has changed.
   /// throws StabilityError when the residual is not finite (block, cell)
-  InnerReport solve(const StepProblem<D>& problem, const InnerTolerance& tolerance,
-                    std::vector<State<D>>& q) override;
+  StepReport solve(const StepProblem<D>& problem, const InnerTolerance& tolerance,
+                   std::vector<State<D>>& q) override;
 
  private:
   struct Levels;

@@ -30,7 +30,8 @@ function(littoral_gtest)
     TEST_PREFIX ${T_PREFIX}.
     WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}
     DISCOVERY_TIMEOUT 60
-    PROPERTIES TIMEOUT ${T_TIMEOUT})
+    # small cases: threads would only wait for each other when tests run side by side
+    PROPERTIES TIMEOUT ${T_TIMEOUT} ENVIRONMENT "OMP_NUM_THREADS=1")
 endfunction()
 
 # littoral_mpi_test(NAME ctest-name RANKS n COMMAND ... [TIMEOUT s] [PASS regex] [FAILS]): one mpirun job in a
