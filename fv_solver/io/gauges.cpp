@@ -1,0 +1,121 @@
+#include "io/gauges.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "grid/donor_patch.hpp"
+#include "littoral/error.hpp"
+#include "physics/measures.hpp"
+
+namespace littoral::fv {
+namespace {
+
+const char* const k_axes[] = {"x", "y", "z"};
+const char* const k_velocities[] = {"u", "v", "w"};
+
+template <int D>
+bool has_wall(const std::vector<Block<D>>& blocks, const std::string& name) {
+  for (const auto& block : blocks)
+    for (const auto& w : block.windows)
+      if (w.name == name) return true;
+  return false;
+}
+
+template <int D>
+bool active(std::size_t a) {
+  return D == 3 || a != 1;
+}
+
+}  // namespace
+
+template <int D>
+Gauges<D>::Gauges(const std::vector<GaugeConfig>& gauges, const Stepper<D>& stepper)
+    : gauges_(gauges), places_(gauges.size()) {
+  const auto& blocks = stepper.blocks();
+  coupler::DonorGeometry geometry;
+  std::vector<std::size_t> cells, block_of;
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    geometry.patches.push_back(donor_patch<D>(blocks[b], 1, cells));
+    block_of.resize(cells.size(), b);
+  }
+  std::unique_ptr<coupler::DonorSearch> search;
+  for (std::size_t g = 0; g < gauges_.size(); ++g) {
+    const GaugeConfig& gauge = gauges_[g];
+    if (gauge.kind == GaugeConfig::Kind::force) {
+      if (has_wall(blocks, gauge.wall)) continue;
+      std::string known;
+      for (const auto& block : blocks)
+        for (const auto& w : block.windows) known += (known.empty() ? "" : ", ") + w.name;
+      throw ConfigError("gauge '" + gauge.name + "': no wall is named '" + gauge.wall + "'. Known: " + known);
+    }
+    if (!search) search = std::make_unique<coupler::DonorSearch>(geometry, D);
+    coupler::Vec3 at = gauge.at;
+    if (D == 2) at[1] = 0.0;
+    std::int64_t hint = -1;
+    const coupler::Donor donor = search->find(at, hint);
+    if (!donor.found) {
+      char text[96];
+      std::snprintf(text, sizeof text, "(%g, %g, %g) m", at[0], at[1], at[2]);
+      throw ConfigError("gauge '" + gauge.name + "' at " + text + " lies in no block, or in blanked cells");
+    }
+    for (std::size_t k = 0; k < 8; ++k) {
+      if (donor.weight[k] == 0.0) continue;
+      const auto i = static_cast<std::size_t>(donor.cell[k]);
+      places_[g].block.push_back(block_of[i]);
+      places_[g].cell.push_back(cells[i]);
+      places_[g].weight.push_back(donor.weight[k]);
+    }
+  }
+}
+
+template <int D>
+std::vector<std::string> Gauges<D>::columns() const {
+  std::vector<std::string> names;
+  for (const GaugeConfig& gauge : gauges_) {
+    if (gauge.kind == GaugeConfig::Kind::point) {
+      names.push_back(gauge.name + ".p");
+      for (std::size_t a = 0; a < 3; ++a)
+        if (active<D>(a)) names.push_back(gauge.name + "." + k_velocities[a]);
+    } else {
+      for (const char* part : {".f", ".dynamic_f"})
+        for (std::size_t a = 0; a < 3; ++a)
+          if (active<D>(a)) names.push_back(gauge.name + part + k_axes[a]);
+      for (std::size_t a = 0; a < 3; ++a)
+        if (D == 3 || a == 1) names.push_back(gauge.name + ".dynamic_m" + k_axes[a]);
+    }
+  }
+  return names;
+}
+
+template <int D>
+std::vector<double> Gauges<D>::values(const Stepper<D>& stepper) const {
+  std::vector<double> values;
+  for (std::size_t g = 0; g < gauges_.size(); ++g) {
+    const GaugeConfig& gauge = gauges_[g];
+    if (gauge.kind == GaugeConfig::Kind::point) {
+      double p = 0.0;
+      std::array<double, D> u{};
+      for (std::size_t i = 0; i < places_[g].cell.size(); ++i) {
+        const State<D>& q = stepper.state()[places_[g].block[i]];
+        p += places_[g].weight[i] * q.p[places_[g].cell[i]];
+        for (std::size_t k = 0; k < D; ++k) u[k] += places_[g].weight[i] * q.u[k][places_[g].cell[i]];
+      }
+      values.push_back(p);
+      values.insert(values.end(), u.begin(), u.end());
+    } else {
+      const WallForce force = wall_force<D>(stepper.blocks(), stepper.equations(), stepper.state(),
+                                            gauge.wall, gauge.moment_about);
+      for (const coupler::Vec3& f : {force.total(), force.dynamic})
+        for (std::size_t a = 0; a < 3; ++a)
+          if (active<D>(a)) values.push_back(f[a]);
+      for (std::size_t a = 0; a < 3; ++a)
+        if (D == 3 || a == 1) values.push_back(force.moment[a]);
+    }
+  }
+  return values;
+}
+
+template class Gauges<2>;
+template class Gauges<3>;
+
+}  // namespace littoral::fv

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "config.hpp"
+#include "dual_time/stepper.hpp"
+#include "littoral/coupler/donor_search.hpp"
+
+namespace littoral::fv {
+
+/// The gauges of a run: columns `<gauge>.<quantity>` and their values now.
+template <int D>
+class Gauges {
+ public:
+  /// throws ConfigError: a point outside the grid or in blanked cells, a wall nobody has
+  Gauges(const std::vector<GaugeConfig>& gauges, const Stepper<D>& stepper);
+  std::vector<std::string> columns() const;
+  std::vector<double> values(const Stepper<D>& stepper) const;
+  bool empty() const { return gauges_.empty(); }
+
+ private:
+  struct Place {  // of a point gauge: cells of the corners and their weights
+    std::vector<std::size_t> block, cell;
+    std::vector<double> weight;
+  };
+  std::vector<GaugeConfig> gauges_;
+  std::vector<Place> places_;  // one a gauge; empty for forces
+};
+
+}  // namespace littoral::fv

@@ -1,0 +1,167 @@
+#include "io/output.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "io/checkpoint.hpp"
+#include "io/fields.hpp"
+#include "littoral/error.hpp"
+
+namespace littoral::fv {
+namespace {
+
+const char* const k_axes[] = {"x", "y", "z"};
+
+/// Names the user gave to walls: those worth a column.
+template <int D>
+std::vector<std::string> named_walls(const FvConfig& config, const std::vector<Block<D>>& blocks) {
+  std::vector<std::string> given, walls;
+  for (const BlockConfig& block : config.blocks) {
+    for (const FaceConfig& face : block.faces) given.push_back(face.name);
+    for (const PatchConfig& patch : block.patches) given.push_back(patch.condition.name);
+  }
+  for (const Block<D>& block : blocks)
+    for (const Window<D>& w : block.windows) {
+      const bool solid = w.condition == Condition::wall || w.condition == Condition::slip;
+      const bool named = std::find(given.begin(), given.end(), w.name) != given.end();
+      if (solid && named && std::find(walls.begin(), walls.end(), w.name) == walls.end())
+        walls.push_back(w.name);
+    }
+  return walls;
+}
+
+/// Whether a multiple of `interval` lies in (before, now]; times are sums of steps, hence the tolerance.
+bool crosses(double before, double now, double interval) {
+  if (interval <= 0.0) return false;
+  constexpr double k_round_off = 1e-9;
+  return std::floor(now / interval + k_round_off) > std::floor(before / interval + k_round_off);
+}
+
+support::CsvSeries series(const std::string& path, const std::vector<std::string>& columns,
+                          const std::string& units, bool restarted, double time) {
+  if (restarted) return support::CsvSeries::append_after(path, columns, time, units);
+  return {path, columns, units};
+}
+
+}  // namespace
+
+template <int D>
+Integrals integrate_all(const Stepper<D>& stepper, const std::vector<coupler::Box>& regions) {
+  Integrals sum;
+  for (std::size_t b = 0; b < stepper.blocks().size(); ++b) {
+    const Block<D>& block = stepper.blocks()[b];
+    const Integrals part =
+        integrate<D>(block, stepper.equations().fluid, stepper.state()[b], outside_share<D>(block, regions));
+    sum.mass += part.mass;
+    sum.kinetic_energy += part.kinetic_energy;
+    sum.potential_energy += part.potential_energy;
+  }
+  return sum;
+}
+
+template <int D>
+Output<D>::Output(const std::string& folder, const FvConfig& config, const support::Scene& scene,
+                  const Stepper<D>& stepper, const support::Timers& timers, bool restarted)
+    : folder_(folder),
+      scene_(scene),
+      options_(config.output),
+      timers_(timers),
+      gauges_(config.gauges, stepper),
+      walls_(named_walls<D>(config, stepper.blocks())) {
+  if (scene.has_region())
+    for (const auto& region : scene.regions) regions_.push_back({region.lower, region.upper});
+  std::vector<std::string> columns = {"time", "dt", "cycles", "drop", "kinetic_energy", "potential_energy",
+                                      "mass"};
+  for (const auto& wall : walls_)
+    for (const char* part : {".f", ".dynamic_f"})
+      for (std::size_t a = 0; a < 3; ++a)
+        if (D == 3 || a != 1) columns.push_back(wall + part + k_axes[a]);
+  for (const auto& phase : timers.table()) columns.push_back("seconds_" + phase.first);
+  columns.push_back("seconds_wait");
+  scalars_.emplace(series(folder + "/scalars.csv", columns,
+                          D == 2 ? "SI; per metre of width; seconds_*: wall time since the start"
+                                 : "SI; seconds_*: wall time since the start",
+                          restarted, stepper.time()));
+  if (!gauges_.empty()) {
+    std::vector<std::string> names = gauges_.columns();
+    names.insert(names.begin(), "time");
+    gauge_rows_.emplace(series(folder + "/gauges.csv", names, D == 2 ? "SI; forces per metre of width" : "SI",
+                               restarted, stepper.time()));
+  }
+  if (restarted) fields_written_at_ = stepper.time();
+  if (options_.fields) fields_.emplace(folder, "fields", restarted, stepper.time());
+}
+
+template <int D>
+void Output<D>::row(const Stepper<D>& stepper, const StepReport& report, double waited) {
+  integrals_ = integrate_all<D>(stepper, regions_);
+  std::vector<double> values = {stepper.time(), stepper.last_dt(),         static_cast<double>(report.cycles),
+                                report.drop(),  integrals_.kinetic_energy, integrals_.potential_energy,
+                                integrals_.mass};
+  for (const auto& wall : walls_) {
+    const WallForce force = wall_force<D>(stepper.blocks(), stepper.equations(), stepper.state(), wall, {});
+    for (const coupler::Vec3& f : {force.total(), force.dynamic})
+      for (std::size_t a = 0; a < 3; ++a)
+        if (D == 3 || a != 1) values.push_back(f[a]);
+  }
+  for (const auto& phase : timers_.table()) values.push_back(phase.second);
+  values.push_back(waited);
+  scalars_->row(values);
+  if (!gauge_rows_) return;
+  std::vector<double> seen = gauges_.values(stepper);
+  seen.insert(seen.begin(), stepper.time());
+  gauge_rows_->row(seen);
+}
+
+template <int D>
+void Output<D>::fields(const Stepper<D>& stepper) {
+  if (!fields_ || fields_written_at_ == stepper.time()) return;
+  std::vector<support::FieldSeries::Block> blocks;
+  for (std::size_t b = 0; b < stepper.blocks().size(); ++b)
+    blocks.push_back(field_block<D>(stepper.blocks()[b], stepper.state()[b]));
+  fields_->write_blocks(stepper.time(), blocks);
+  fields_written_at_ = stepper.time();
+}
+
+template <int D>
+void Output<D>::first(const Stepper<D>& stepper, double waited) {
+  row(stepper, StepReport{}, waited);
+  fields(stepper);
+}
+
+template <int D>
+void Output<D>::after(const coupler::Agreement& agreement, const Stepper<D>& stepper,
+                      const StepReport& report, double waited) {
+  const bool due = write_due(stepper.time()) || agreement.write;
+  if (++rows_skipped_ >= options_.scalars_every || due) {
+    row(stepper, report, waited);
+    rows_skipped_ = 0;
+  }
+  if (due) fields(stepper);
+}
+
+template <int D>
+void Output<D>::last(const Stepper<D>& stepper) {
+  fields(stepper);
+}
+
+template <int D>
+bool Output<D>::write_due(double time) const {
+  return crosses(fields_written_at_, time, scene_.time.field_interval);
+}
+
+template <int D>
+std::string Output<D>::checkpoint_path(std::int64_t window) const {
+  char name[48];
+  std::snprintf(name, sizeof name, "/checkpoint_%08lld.h5", static_cast<long long>(window));
+  return folder_ + name;
+}
+
+template Integrals integrate_all<2>(const Stepper<2>&, const std::vector<coupler::Box>&);
+template Integrals integrate_all<3>(const Stepper<3>&, const std::vector<coupler::Box>&);
+template class Output<2>;
+template class Output<3>;
+
+}  // namespace littoral::fv

@@ -1,0 +1,91 @@
+#include "setup.hpp"
+
+#include <cmath>
+
+#include "dual_time/plain.hpp"
+#include "grid/box.hpp"
+#include "littoral/error.hpp"
+
+namespace littoral::fv {
+namespace {
+
+template <int D>
+coupler::Vec3 in_space(const std::array<double, D>& x) {
+  if constexpr (D == 2)
+    return {x[0], 0.0, x[1]};
+  else
+    return {x[0], x[1], x[2]};
+}
+
+template <int D>
+Fluid<D> fluid_of(const support::Scene& scene) {
+  Fluid<D> fluid;
+  fluid.density = scene.fluid.density;
+  fluid.reference_pressure = scene.fluid.reference_pressure;
+  fluid.viscosity = scene.fluid.viscosity;
+  fluid.inverse_c2 = 1.0 / (scene.fluid.sound_speed * scene.fluid.sound_speed);  // 0 where c is infinite
+  for (std::size_t k = 0; k < D; ++k) fluid.gravity[k] = scene.gravity[D == 2 && k == 1 ? 2 : k];
+  return fluid;
+}
+
+double velocity_scale(const FvConfig& config, const support::Scene& scene) {
+  if (std::isfinite(scene.velocity_scale())) return scene.velocity_scale();
+  if (config.dual_time.pseudo_sound_speed) return *config.dual_time.pseudo_sound_speed;
+  throw ConfigError(
+      "the sound speed is infinite, so the flow's velocity scale is unknown: give the scene's "
+      "reference_velocity, or dual_time.pseudo_sound_speed");
+}
+
+}  // namespace
+
+template <int D>
+Stepper<D> make_stepper(const FvConfig& config, const support::Scene& scene) {
+  std::vector<Block<D>> blocks;
+  for (const BlockConfig& block : config.blocks) blocks.push_back(build_block<D>(block, scene));
+
+  Equations<D> equations;
+  equations.fluid = fluid_of<D>(scene);
+  equations.limiter = config.limiter;
+  const double velocity = velocity_scale(config, scene);
+  equations.speeds.c0 = config.dual_time.pseudo_sound_speed.value_or(velocity);
+  equations.speeds.kappa = config.dual_time.kappa;
+
+  InnerTolerance tolerance;
+  tolerance.drop = config.dual_time.drop;
+  tolerance.floor = config.dual_time.floor.value_or(1e-9 * velocity);
+  tolerance.max_cycles = config.dual_time.max_cycles;
+  std::unique_ptr<StepSolver<D>> solver = std::make_unique<PlainDualTime<D>>(config.dual_time.pseudo_cfl);
+
+  Stepper<D> stepper(std::move(blocks), equations, std::move(solver), tolerance);
+  const auto initial = scene.initial;
+  stepper.initialise(
+      [&initial](const std::array<double, D>& at, double t) {
+        const coupler::Vec3 x = in_space<D>(at);
+        PointState<D> s;
+        s.p = initial.p(x[0], x[1], x[2], t);
+        const coupler::Vec3 u = {initial.u(x[0], x[1], x[2], t), initial.v(x[0], x[1], x[2], t),
+                                 initial.w(x[0], x[1], x[2], t)};
+        for (std::size_t k = 0; k < D; ++k) s.u[k] = u[D == 2 && k == 1 ? 2 : k];
+        return s;
+      },
+      0.0);
+  const auto& source = config.source;
+  if (source.mass || source.u || source.v || source.w)
+    stepper.set_source([source](const std::array<double, D>& at, double t) {
+      const coupler::Vec3 x = in_space<D>(at);
+      const auto value = [&](const std::optional<support::Formula>& f) {
+        return f ? (*f)(x[0], x[1], x[2], t) : 0.0;
+      };
+      const coupler::Vec3 force = {value(source.u), value(source.v), value(source.w)};
+      Source<D> s;
+      s.mass = value(source.mass);
+      for (std::size_t k = 0; k < D; ++k) s.momentum[k] = force[D == 2 && k == 1 ? 2 : k];
+      return s;
+    });
+  return stepper;
+}
+
+template Stepper<2> make_stepper<2>(const FvConfig&, const support::Scene&);
+template Stepper<3> make_stepper<3>(const FvConfig&, const support::Scene&);
+
+}  // namespace littoral::fv

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "config.hpp"
+#include "dual_time/stepper.hpp"
+
+namespace littoral::fv {
+
+/// The discrete problem of a configuration: blocks, fluid, wave speeds, inner solver, sources, initial state.
+/// throws ConfigError
+template <int D>
+Stepper<D> make_stepper(const FvConfig& config, const support::Scene& scene);
+
+}  // namespace littoral::fv

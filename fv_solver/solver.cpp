@@ -1,0 +1,183 @@
+#include "solver.hpp"
+
+#include <omp.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "io/checkpoint.hpp"
+#include "littoral/coupler/job.hpp"
+#include "littoral/error.hpp"
+#include "setup.hpp"
+#include "version.hpp"
+
+namespace littoral::fv {
+namespace {
+
+std::string make_folder(const std::string& out) {
+  const std::string folder = out + "/fv";
+  std::error_code problem;
+  std::filesystem::create_directories(folder, problem);
+  if (problem) throw IoError(folder + ": cannot be made: " + problem.message());
+  return folder;
+}
+
+void write_text(const std::string& path, const std::string& text) {
+  std::ofstream file(path);
+  file << text;
+  file.close();
+  if (!file) throw IoError(path + ": cannot be written (is the disk full?)");
+}
+
+template <class... Values>
+std::string format(const char* pattern, Values... values) {
+  char text[256];
+  std::snprintf(text, sizeof text, pattern, values...);
+  return text;
+}
+
+}  // namespace
+
+template <int D>
+Solver<D>::Solver(const FvConfig& config, const support::Scene& scene, const std::string& out,
+                  const std::string& restart)
+    : config_(config),
+      scene_(scene),
+      folder_(make_folder(out)),
+      restarted_(!restart.empty()),
+      log_("fv_solver", 0, folder_ + "/log.txt"),
+      solve_(timers_.declare("solve")),
+      write_(timers_.declare("output")),
+      stepper_(make_stepper<D>(config, scene)) {
+  if (restarted_) window_ = read_checkpoint<D>(restart, stepper_, scene);
+  write_text(folder_ + "/config.yaml", config.resolved());
+  write_text(folder_ + "/scene.yaml", scene.resolved());
+  last_checkpoint_ = stepper_.time();
+}
+
+template <int D>
+void Solver<D>::run(Companion<D>& companion) {
+  begin_ = support::Timers::now();
+  companion.begin(stepper_);
+  output_ = std::make_unique<Output<D>>(folder_, config_, scene_, stepper_, timers_, restarted_);
+  std::ptrdiff_t cells = 0;
+  for (const auto& block : stepper_.blocks()) cells += block.extent.cells();
+  log_.info(format("%s: %td cells in %zu blocks, %d threads, %s", scene_.title.c_str(), cells,
+                   stepper_.blocks().size(), omp_get_max_threads(), companion.description().c_str()));
+  if (!restarted_) output_->first(stepper_, companion.waited());
+
+  std::string reason = "end time reached";
+  while (const auto agreement = companion.agree(propose())) {
+    if (agreement->stop) {
+      if (!agreement->reason.empty()) reason = agreement->reason;
+      break;
+    }
+    coupler::set_place(agreement->window.index, agreement->window.t_begin);
+    step(*agreement, companion);
+  }
+  output_->last(stepper_);
+  companion.goodbye(reason);
+  write_summary(companion, reason);
+}
+
+template <int D>
+void Solver<D>::step(const coupler::Agreement& agreement, Companion<D>& companion) {
+  StepReport outcome;
+  {
+    const auto timing = timers_.scope(solve_);
+    const double waited = companion.waited();
+    outcome = companion.advance(agreement.window, stepper_);
+    timers_.add(solve_, waited - companion.waited());  // waiting is no work
+  }
+  window_ = agreement.window.index + 1;
+  report(outcome);
+  const auto timing = timers_.scope(write_);
+  output_->after(agreement, stepper_, outcome, companion.waited());
+  if (agreement.checkpoint) {
+    write_checkpoint<D>(output_->checkpoint_path(window_), stepper_, window_, scene_);
+    last_checkpoint_ = stepper_.time();
+  }
+}
+
+template <int D>
+coupler::Proposal Solver<D>::propose() const {
+  coupler::Proposal mine;
+  mine.dt_stable = std::numeric_limits<double>::infinity();
+  if (config_.time.dt) mine.dt_stable = *config_.time.dt;
+  if (config_.time.cfl) {
+    double rate = 0.0;
+    for (std::size_t b = 0; b < stepper_.blocks().size(); ++b)
+      rate = std::max(
+          rate, convective_rate<D>(stepper_.blocks()[b], stepper_.state()[b], scene_.reference_velocity));
+    mine.dt_stable = *config_.time.cfl / rate;
+  }
+  // the length of the coming window is not known yet: as long as the last one
+  const double next = stepper_.time() + stepper_.last_dt();
+  const double interval = scene_.time.checkpoint_interval;
+  mine.checkpoint = interval > 0.0 && next - last_checkpoint_ >= interval * (1.0 - 1e-9);
+  return mine;
+}
+
+template <int D>
+void Solver<D>::report(const StepReport& outcome) {
+  ++steps_;
+  cycles_ += outcome.cycles;
+  log_.progress(stepper_.time(), scene_.time.end,
+                format("t = %.5g s, dt = %.3g s, %d cycles, drop %.1e", stepper_.time(), stepper_.last_dt(),
+                       outcome.cycles, outcome.drop()));
+  if (config_.dual_time.print_history) {
+    std::string history = "inner history [m/s]:";
+    for (const double norm : outcome.norms) history += format(" %.3e", norm);
+    log_.info(history);
+  }
+  if (outcome.converged) return;
+  // the first few and then every hundredth: a run that never converges should not bury its log
+  if (++unconverged_ <= 3 || unconverged_ % 100 == 0)
+    log_.warn(
+        format("step %ld: the inner iteration stopped after %d cycles at a drop of %.1e, not %.1e (%ld "
+               "such steps so far); a smaller step or more dual_time.max_cycles helps",
+               stepper_.steps(), outcome.cycles, outcome.drop(), config_.dual_time.drop, unconverged_));
+}
+
+template <int D>
+void Solver<D>::write_summary(const Companion<D>& companion, const std::string& reason) {
+  support::Summary summary;
+  summary.program = "fv_solver";
+  summary.version = k_version;
+  summary.threads = omp_get_max_threads();
+  summary.wall_time = support::Timers::now() - begin_;
+  summary.phases = timers_.table();
+  summary.phases.emplace_back("wait", companion.waited());
+  double cells = 0.0;
+  for (const auto& block : stepper_.blocks()) cells += static_cast<double>(block.extent.cells());
+  const double solved = timers_.seconds(solve_), steps = static_cast<double>(std::max(1L, steps_));
+  summary.results = {{"cells", cells},
+                     {"steps", static_cast<double>(steps_)},
+                     {"time", stepper_.time()},
+                     {"inner_cycles_per_step", static_cast<double>(cycles_) / steps},
+                     {"unconverged_steps", static_cast<double>(unconverged_)},
+                     {"microseconds_per_cell_and_step", 1e6 * solved / (cells * steps)},
+                     {"mass", output_->integrals().mass},
+                     {"kinetic_energy", output_->integrals().kinetic_energy},
+                     {"potential_energy", output_->integrals().potential_energy}};
+  summary.notes = {{"scene", scene_.title},
+                   {"digest", scene_.digest},
+                   {"companion", companion.description()},
+                   {"stopped because", reason}};
+  if (unconverged_ > 0)
+    summary.warnings.push_back(
+        format("%ld of %ld steps did not reach the inner tolerance", unconverged_, steps_));
+  summary.write(folder_ + "/summary.json");
+  log_.info(format("%s: %ld steps to t = %.6g s in %.2f s, %.1f cycles a step, %.2f us a cell and step",
+                   reason.c_str(), steps_, stepper_.time(), summary.wall_time,
+                   summary.results["inner_cycles_per_step"],
+                   summary.results["microseconds_per_cell_and_step"]));
+}
+
+template class Solver<2>;
+template class Solver<3>;
+
+}  // namespace littoral::fv
