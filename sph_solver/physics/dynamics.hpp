@@ -56,6 +56,10 @@ class Dynamics {
   /// du/dt and dV/dt of the particles as they stand; copies refreshed. pre: prepare() since particles changed
   void right_hand_side(Particles<D>& particles);
 
+  /// What stable_time_step() remembers of the last right-hand side [m/s^2]; part of a checkpoint.
+  double most_acceleration() const { return most_acceleration_; }
+  void set_most_acceleration(double acceleration) { most_acceleration_ = acceleration; }
+
   const Rate<D>& rate() const { return rate_; }
   const NeighborList<D>& neighbors() const { return neighbors_; }
   const Ghosts<D>& ghosts() const { return ghosts_; }

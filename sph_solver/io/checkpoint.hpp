@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "coupling/particle_exchange.hpp"
+#include "particles/particles.hpp"
+
+namespace littoral::sph {
+
+/// Where a run stands, beside its particles.
+struct RunState {
+  double time = 0.0;        // [s]
+  std::int64_t window = 0;  // windows completed
+  double most_acceleration =
+      0.0;  // [m/s^2] of the last right-hand side: the next step's length depends on it
+  std::string scene_title;
+  std::string scene_digest;
+};
+
+/// Everything a run needs to go on bit for bit: the particles in their present order with ids and hints, the
+/// face elements' masses and the ledger (exchange may be null: no coupling). Neighbour lists are not stored;
+/// the running program makes them anew after a checkpoint, as the restarted one does.
+/// throws IoError (disk full, no permission)
+template <int D>
+void write_checkpoint(const std::string& path, const RunState& run, const Particles<D>& particles,
+                      const ParticleExchange<D>* exchange);
+
+/// Reads what write_checkpoint wrote.
+/// throws IoError: missing, damaged, of the other dimension; ConfigError: of another scene (names both)
+template <int D>
+RunState read_checkpoint(const std::string& path, const std::string& scene_title,
+                         const std::string& scene_digest, Particles<D>& particles,
+                         ParticleExchange<D>* exchange);
+
+/// OUT/sph/checkpoint_000120.h5
+std::string checkpoint_path(const std::string& folder, std::int64_t window);
+
+}  // namespace littoral::sph
