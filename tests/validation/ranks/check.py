@@ -1,0 +1,33 @@
+"""C19: what the number of threads and ranks may change is the order of sums, and nothing else."""
+
+import numpy as np
+
+SET = ["scene.constants.n=25", "scene.time.max_windows=100", "scene.time.field_interval=0"]
+
+
+def difference(one, two):
+    """Largest relative difference of the joined scalars over all rows."""
+    worst = 0.0
+    for name in ("kinetic_energy", "mass"):
+        a, b = one.scalars[name], two.scalars[name]
+        if len(a) != len(b):
+            return float("nan")
+        worst = max(worst, float(np.abs(a / b - 1).max()))
+    return worst
+
+
+def check(case):
+    base = case.run("configs/standing_wave", name="threads1", threads=1, set=SET)
+    case.metric("windows", len(base.scalars["time"]) - 1, at_least=99)
+    again = case.run("configs/standing_wave", name="again", threads=1, set=SET)
+    case.metric("run again", difference(base, again), at_most=0.0)
+    threads = case.run("configs/standing_wave", name="threads2", threads=2, set=SET)
+    case.metric("two threads", difference(base, threads), at_most=1e-10)
+    for sph, fv in ((2, 1), (1, 2), (3, 2)):
+        run = case.run("configs/standing_wave", name=f"ranks{sph}{fv}", sph_ranks=sph, fv_ranks=fv, threads=1, set=SET,
+                       may_fail=True, timeout=120)
+        if run.status == 0:
+            case.metric(f"{sph}+{fv} ranks", difference(base, run), at_most=1e-6)
+        else:
+            # a program that runs on one rank only must say so and end, not hang
+            case.holds(f"{sph}+{fv} ranks: refused with a reason", "rank" in run.screen and run.status != 124)
