@@ -4,6 +4,7 @@
 
 #include "dual_time/plain.hpp"
 #include "grid/box.hpp"
+#include "implicit/multigrid_solver.hpp"
 #include "littoral/error.hpp"
 
 namespace littoral::fv {
@@ -54,7 +55,11 @@ Stepper<D> make_stepper(const FvConfig& config, const support::Scene& scene) {
   tolerance.drop = config.dual_time.drop;
   tolerance.floor = config.dual_time.floor.value_or(1e-9 * velocity);
   tolerance.max_cycles = config.dual_time.max_cycles;
-  std::unique_ptr<StepSolver<D>> solver = std::make_unique<PlainDualTime<D>>(config.dual_time.pseudo_cfl);
+  std::unique_ptr<StepSolver<D>> solver;
+  if (config.dual_time.method == FvConfig::DualTime::Method::plain)
+    solver = std::make_unique<PlainDualTime<D>>(config.dual_time.pseudo_cfl);
+  else
+    solver = std::make_unique<MultigridSolver<D>>();
 
   Stepper<D> stepper(std::move(blocks), equations, std::move(solver), tolerance);
   const auto initial = scene.initial;

@@ -1,0 +1,83 @@
+#include "program.hpp"
+
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "companion.hpp"
+#include "littoral/error.hpp"
+#include "littoral/support/options.hpp"
+#include "setup.hpp"
+#include "solver.hpp"
+#include "version.hpp"
+
+namespace littoral::fv {
+namespace {
+
+using support::ProgramOptions;
+
+template <int D>
+std::unique_ptr<Companion<D>> companion_of(coupler::Job& job, const ProgramOptions& options,
+                                           const support::Scene& scene, const Solver<D>& solver) {
+  if (!job.has_partner() && options.replay.empty()) {
+    if (scene.has_region())
+      throw ConfigError(
+          "the scene couples particles and grid, but no sph_solver runs in this job: start both "
+          "(mpirun -n 1 sph_solver --config sph.yaml : -n 1 fv_solver --config fv.yaml), or run the grid "
+          "alone "
+          "with --set scene.coupling.kind=none");
+    return std::make_unique<Alone<D>>(solver.start_time(), scene.time.end, scene.time.max_windows);
+  }
+  throw ConfigError("this scene's coupling.kind is none, yet sph_solver runs in the same job");
+}
+
+template <int D>
+void run_scene(coupler::Job& job, const ProgramOptions& options, const FvConfig& config,
+               const support::Scene& scene) {
+  if (!scene.has_region() && !config.time.dt && !config.time.cfl)
+    throw ConfigError(options.config + ": a run without partner needs a step: give time.dt or time.cfl");
+  Solver<D> solver(config, scene, options.out, options.restart);
+  solver.run(*companion_of<D>(job, options, scene, solver));
+}
+
+}  // namespace
+
+int run(coupler::Job& job, int argc, char** argv) {
+  const support::ParsedOptions parsed =
+      support::parse_options(argc, argv, "fv_solver", k_version, "Finite volumes on structured blocks.");
+  const bool speaks = job.rank() == 0;
+  if (parsed.exit_status) {
+    if (speaks) std::fputs(parsed.text.c_str(), *parsed.exit_status == 0 ? stdout : stderr);
+    return *parsed.exit_status;
+  }
+  const ProgramOptions& options = parsed.options;
+  if (options.help_config) {
+    if (speaks) {
+      support::Binder help(support::Binder::Mode::help);
+      FvConfig().bind(help);
+      std::fputs(help.text().c_str(), stdout);
+    }
+    return 0;
+  }
+  support::Scene scene;
+  const FvConfig config =
+      FvConfig::from_file(options.config, options.settings, options.scene_settings, scene);
+  if (options.print_config) {
+    if (speaks) std::printf("# scene\n%s# fv\n%s", scene.resolved().c_str(), config.resolved().c_str());
+    return 0;
+  }
+  if (options.check) {
+    if (speaks) std::printf("fv_solver: %s: no problem found\n", options.config.c_str());
+    return 0;
+  }
+  if (job.size() > 1)
+    throw ConfigError("fv_solver runs on one MPI rank, not " + std::to_string(job.size()) +
+                      "; use threads instead (OMP_NUM_THREADS, or littoral run --fv-ranks 1 --threads N)");
+  if (scene.dimension == 2)
+    run_scene<2>(job, options, config, scene);
+  else
+    run_scene<3>(job, options, config, scene);
+  return 0;
+}
+
+}  // namespace littoral::fv
