@@ -65,7 +65,7 @@ void Channel::look_for_notice() {
 void Channel::give_up(const std::string& awaited, const std::vector<int>& silent, double seconds) const {
   if (farewell_) {
     const std::string left = farewell_->kind == Kind::goodbye ? " said goodbye" : " left";
-    throw CouplingError(partner_ + left + " (" + farewell_->reason + ") while " + awaited + " was awaited");
+    throw CouplingError(partner_ + left + " (" + farewell_->reason + "); still awaited: " + awaited);
   }
   std::string ranks;
   for (const int rank : silent) ranks += (ranks.empty() ? "" : ", ") + std::to_string(rank);
@@ -79,6 +79,7 @@ void Channel::start_send(int rank, const Bytes& message) {
                         " exceeds what MPI can count; use more ranks");
   MPI_Isend(message.data(), static_cast<int>(message.size()), MPI_CHAR, rank, k_tag_message, intercomm_,
             &sends_.emplace_back());
+  receivers_.push_back(rank);
 }
 
 void Channel::complete_sends(const Expected& what) {
@@ -88,9 +89,10 @@ void Channel::complete_sends(const Expected& what) {
     int done = 0;
     MPI_Testall(static_cast<int>(sends_.size()), sends_.data(), &done, MPI_STATUSES_IGNORE);
     if (done) break;
-    if (!wait.go_on()) give_up("its reception of " + describe(what), {}, deadline_);
+    if (!wait.go_on()) give_up("its reception of " + describe(what), receivers_, deadline_);
   }
   sends_.clear();
+  receivers_.clear();
 }
 
 /// Moves message i one state on, if it can.

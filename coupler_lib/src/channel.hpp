@@ -56,6 +56,7 @@ class Channel {
   int size_ = 0;
   double waited_ = 0.0;
   std::vector<MPI_Request> sends_, receives_;
+  std::vector<int> receivers_;  // of the sends under way
   enum class Progress : std::uint8_t { awaited, arriving, here };
   std::vector<Progress> progress_;
   std::optional<Notice> farewell_;  // goodbye or leaving, seen while waiting for something else

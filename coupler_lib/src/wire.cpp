@@ -20,9 +20,9 @@ bool is_known(Kind kind) { return kind >= Kind::contract && kind <= Kind::abort;
 Header read_header(const char* message, std::size_t received, const std::string& who,
                    const std::string& awaited) {
   Header header;
-  const std::string instead = awaited.empty() ? "" : " where " + awaited + " was awaited";
+  const std::string instead = awaited.empty() ? "" : "; awaited: " + awaited;
   if (received < sizeof header)
-    refuse(who, std::to_string(received) + " bytes, less than a header," + instead);
+    refuse(who, std::to_string(received) + " bytes, less than a header" + instead);
   std::memcpy(&header, message, sizeof header);
   if (header.magic != Header::k_magic) refuse(who, "bytes that are no message of this protocol" + instead);
   if (header.check != header_check(header) || !is_known(header.kind))
@@ -115,10 +115,10 @@ Header checked_header(const char* message, std::size_t received, const Expected&
   const Header header = read_header(message, received, who, awaited);
   if (header.kind != expected.kind)
     refuse(who, std::string("the ") + name(header.kind) + place(header.kind, header.window, header.pass) +
-                    " where " + awaited + " was awaited");
+                    "; awaited: " + awaited);
   if (header.window != expected.window || header.pass != expected.pass)
     refuse(who, std::string("the ") + name(header.kind) + place(header.kind, header.window, header.pass) +
-                    " where " + awaited + " was awaited: late, repeated or lost");
+                    "; awaited: " + awaited + " (one is late, repeated or lost)");
   if (header.epoch != expected.epoch)
     refuse(who, std::string("the ") + name(header.kind) + " of epoch " + std::to_string(header.epoch) +
                     " where epoch " + std::to_string(expected.epoch) + " is current");

@@ -50,6 +50,15 @@ void fill(const DonorGeometry& geometry, const Window& window, bool with_phi, Do
     }
 }
 
+/// The first cell that the region needs.
+std::size_t first_inside(const DonorGeometry& geometry, const Box& region) {
+  std::size_t c = 0;
+  for (const auto& patch : geometry.patches)
+    for (std::size_t i = 0; i < patch.size(); ++i, ++c)
+      if (region.contains({patch.x[i], patch.y[i], patch.z[i]})) return c;
+  return 0;
+}
+
 void check_samples(const Targets& targets, const Samples& samples, const Window& window) {
   std::size_t uncovered = 0;
   for (std::size_t i = 0; i < targets.size(); ++i) {
@@ -111,7 +120,8 @@ int play_fv(Job& job, const Script& script) {
       if (!misbehave_in_message(script, job, true, window, geometry.size())) {
         fill(geometry, window, script.with_phi, donors);
         if (script.misbehave == "nan" && window.index == script.at)
-          donors.p[donors.p.size() / 2] = std::nan("");
+          for (std::size_t i = 0; i < 3; ++i)
+            donors.p[first_inside(geometry, script.region) + i] = std::nan("");
         partner->send(window, donors);
         if (script.misbehave == "twice" && window.index == script.at) partner->send(window, donors);
       }

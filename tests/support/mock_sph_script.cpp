@@ -71,6 +71,7 @@ int play_sph(Job& job, const Script& script) {
   const RunPlan plan = plan_of(script);
   auto partner = job.fv_partner(plan);
   Box part = part_of(script.region, job.rank(), job.size(), script);
+  if (script.misbehave == "zero-points") part = Box::nothing();
   partner->announce(part, part.grown(script.spacing));
   Proposal proposal;
   proposal.dt_stable = script.dt_stable;
