@@ -109,6 +109,9 @@ def main(argv):
     except UserError as problem:
         print(f"littoral: {problem}", file=sys.stderr)
         return 2
+    except OSError as problem:
+        print(f"littoral: {problem}", file=sys.stderr)
+        return 2
     except KeyboardInterrupt:
         print("littoral: interrupted", file=sys.stderr)
         return 130

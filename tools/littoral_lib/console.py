@@ -22,8 +22,7 @@ class Console:
         self.log = open(log_path, "w", encoding="utf-8")
 
     def line(self, text):
-        self.log.write(text + "\n")
-        self.log.flush()
+        self._keep(text)
         match = re.match(r"\W*(sph|fv)(_solver)?\b", text)
         program = match.group(1) if match else None
         if re.search(r"\b(warn(ing)?|error)\b", text, re.IGNORECASE):
@@ -31,6 +30,13 @@ class Console:
         elif program in self.programs:
             self.latest[program] = text
             self._refresh(program)
+
+    def _keep(self, text):
+        try:
+            self.log.write(text + "\n")
+            self.log.flush()
+        except OSError:  # disk full: the job will say so itself; its screen must go on
+            pass
 
     def _stand(self, text):
         if self.quiet:
@@ -63,4 +69,7 @@ class Console:
         self.stream.flush()
 
     def close(self):
-        self.log.close()
+        try:
+            self.log.close()
+        except OSError:
+            pass

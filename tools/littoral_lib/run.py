@@ -66,7 +66,11 @@ def run(scene, out, sph_ranks=1, fv_ranks=1, threads=None, restart=None, restart
     job = {"status": result.status, "ranks": {p: ranks[p] for p in scene.programs}, "threads": threads,
            "wall_seconds": round(result.seconds, 3), "command": shlex.join(line),
            "restart": None if files is None else {p: str(f) for p, f in files.items()}}
-    summary = collect.collect(out, scene, job)
+    try:
+        summary = collect.collect(out, scene, job)
+    except OSError as problem:  # a full disk, say: the job's own verdict must not be lost with the summary
+        print(f"littoral: cannot collect the results: {problem}", file=sys.stderr)
+        summary = {"programs": {p: None for p in scene.programs}, **job, "status": job["status"] or 1}
     summary["lines"] = result.lines
     return summary
 
