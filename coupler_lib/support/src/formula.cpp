@@ -23,6 +23,8 @@ struct Formula::Parser {
     expression.DefineVar("t", &t);
     expression.DefineConst("pi", std::acos(-1.0));
     expression.DefineConst("e", std::exp(1.0));
+    expression.DefineFun("floor", static_cast<double (*)(double)>(std::floor));
+    expression.DefineFun("mod", static_cast<double (*)(double, double)>(std::fmod));
     for (const auto& [name, value] : names)
       if (name != "pi" && name != "e") expression.DefineConst(name, value);
     expression.SetExpr(text);
@@ -95,7 +97,7 @@ Formula::Formula(const std::string& text, const std::map<std::string, double>& c
     // the token is all of the rest; its first word is what nobody knows
     const std::string word = token.substr(
         0, token.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789"));
-    const std::string shown = word.empty() ? token : word;
+    const std::string shown = word.empty() ? token.substr(0, 1) : word;
     std::vector<std::string> known = parser_->names();
     std::vector<std::string> candidates = known;
     for (const auto& [name, function] : parser_->expression.GetFunDef()) candidates.push_back(name);

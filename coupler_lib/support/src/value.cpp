@@ -9,8 +9,8 @@
 namespace littoral::support {
 namespace {
 
-constexpr int k_max_depth = 64;               // an alias may contain itself
-constexpr std::size_t k_max_nodes = 1000000;  // aliases of aliases multiply
+constexpr int k_max_depth = 64;              // an alias may contain itself
+constexpr std::size_t k_max_nodes = 200000;  // aliases of aliases multiply
 
 struct Converter {
   const std::string& source;

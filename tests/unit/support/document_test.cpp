@@ -43,6 +43,10 @@ TEST(DocumentTest, SyntaxErrorHasLineAndColumn) {
   EXPECT_CONTAINS(refusal("a: *nobody\n"), "scene.yaml:1:");
 }
 
+TEST(DocumentTest, LineEndsOfOtherSystems) {
+  EXPECT_EQ(refusal("\xef\xbb\xbftitle: a\r\ntime:\r\n  end: 1\r\n"), "no exception");
+}
+
 TEST(DocumentTest, OneDocumentOnly) {
   EXPECT_CONTAINS(refusal("a: 1\n---\nb: 2\n"), "2 documents separated by '---'");
 }

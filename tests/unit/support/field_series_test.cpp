@@ -1,4 +1,5 @@
-#include <regex>
+#include <algorithm>
+#include <sstream>
 
 #include "littoral/support/checkpoint.hpp"
 #include "littoral/support/series.hpp"
@@ -7,26 +8,40 @@
 namespace littoral::support {
 namespace {
 
-/// Empty if every element is closed in order and no stray markup remains; else what is wrong.
+/// The text between two marks, from `at` on, which moves behind it; empty if there is none.
+std::string between(const std::string& text, const std::string& left, const std::string& right,
+                    std::size_t& at) {
+  const std::size_t begin = text.find(left, at);
+  const std::size_t end = begin == std::string::npos ? begin : text.find(right, begin + left.size());
+  if (end == std::string::npos) {
+    at = end;
+    return "";
+  }
+  at = end + right.size();
+  return text.substr(begin + left.size(), end - begin - left.size());
+}
+
+/// Empty if every element is closed in order and nothing but text lies between; else what is wrong.
 std::string xml_problem(const std::string& text) {
   std::vector<std::string> open;
-  const std::regex tag(R"(<(/?)([A-Za-z]\w*)((?:\s+\w+="[^"<]*")*)\s*(/?)>)");
-  std::string rest;
-  std::size_t end = 0;
-  for (std::sregex_iterator it(text.begin(), text.end(), tag), last; it != last; ++it) {
-    rest += text.substr(end, static_cast<std::size_t>(it->position()) - end);
-    end = static_cast<std::size_t>(it->position() + it->length());
-    const std::string name = (*it)[2];
-    if ((*it)[1].length() > 0) {
-      if (open.empty() || open.back() != name) return "closes " + name;
-      open.pop_back();
-    } else if ((*it)[4].length() == 0) {
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const std::size_t begin = text.find('<', at);
+    if (text.substr(at, begin == std::string::npos ? begin : begin - at).find('>') != std::string::npos)
+      return "stray >";
+    if (begin == std::string::npos) break;
+    const std::string tag = between(text, "<", ">", at);
+    if (tag.empty() || tag.find('<') != std::string::npos) return "stray <";
+    if (std::count(tag.begin(), tag.end(), '"') % 2 != 0) return "open quote in " + tag;
+    const std::string name = tag.substr(0, tag.find(' '));
+    if (name[0] == '?' || tag.back() == '/') continue;
+    if (name[0] != '/') {
       open.push_back(name);
+    } else {
+      if (open.empty() || "/" + open.back() != name) return "closes " + name;
+      open.pop_back();
     }
   }
-  rest += text.substr(end);
-  rest = std::regex_replace(rest, std::regex(R"(^<\?xml version="1\.0"\?>)"), "");
-  if (rest.find_first_of("<>") != std::string::npos) return "stray markup";
   return open.empty() ? "" : "leaves " + open.back() + " open";
 }
 
@@ -37,11 +52,16 @@ struct Item {
 
 std::vector<Item> data_items(const std::string& xdmf) {
   std::vector<Item> items;
-  const std::regex pattern(R"re(Dimensions="([0-9 ]+)">([^<:]+):/([^<]+)</DataItem>)re");
-  for (std::sregex_iterator it(xdmf.begin(), xdmf.end(), pattern), last; it != last; ++it) {
-    Item item{1, (*it)[2], (*it)[3]};
-    std::istringstream extents((*it)[1]);
-    for (std::size_t extent; extents >> extent;) item.size *= extent;
+  for (std::size_t at = 0; at < xdmf.size();) {
+    const std::string text = between(xdmf, "<DataItem ", "</DataItem>", at);
+    if (text.empty()) break;
+    Item item;
+    std::size_t inside = 0;
+    std::istringstream extents(between(text, "Dimensions=\"", "\">", inside));
+    for (std::size_t extent = 0; extents >> extent;) item.size *= extent;
+    const std::size_t colon = text.find(":/", inside);
+    item.file = text.substr(inside, colon - inside);
+    item.dataset = text.substr(colon + 2);
     items.push_back(item);
   }
   return items;
@@ -49,9 +69,10 @@ std::vector<Item> data_items(const std::string& xdmf) {
 
 std::vector<double> times(const std::string& xdmf) {
   std::vector<double> out;
-  const std::regex pattern("<Time Value=\"([^\"]+)\"");
-  for (std::sregex_iterator it(xdmf.begin(), xdmf.end(), pattern), last; it != last; ++it)
-    out.push_back(std::stod((*it)[1]));
+  for (std::size_t at = 0; at < xdmf.size();) {
+    const std::string time = between(xdmf, "<Time Value=\"", "\"", at);
+    if (!time.empty()) out.push_back(std::stod(time));
+  }
   return out;
 }
 
@@ -73,6 +94,13 @@ FieldSeries::Block block(const std::string& name, std::array<int, 3> cells) {
   b.cell_fields.push_back({"p", 1, std::vector<double>(n, 2.0)});
   b.cell_fields.push_back({"u", 3, std::vector<double>(3 * n, 3.0)});
   return b;
+}
+
+TEST(FieldSeriesTest, TheXmlCheckSeesFaults) {
+  EXPECT_EQ(xml_problem("<a x=\"1\"><b/></a>"), "");
+  for (const char* bad :
+       {"<a>", "</a>", "<a></b>", "<a><b></a></b>", "<a x=\"1></a>", "<a> > </a>", "<a> < </a>"})
+    EXPECT_NE(xml_problem(bad), "") << bad;
 }
 
 TEST(FieldSeriesTest, PointsAreReadableAfterEveryStep) {
@@ -122,6 +150,7 @@ TEST(FieldSeriesTest, NamesAreEscaped) {
   FieldSeries series(folder / "", "a&b", false, 0.0);
   series.write_points(0.0, {0, 0, 0}, {{"d<p>\"", 1, {1}}});
   EXPECT_EQ(xml_problem(content(folder / "a&b.xdmf")), "");
+  EXPECT_CONTAINS(content(folder / "a&b.xdmf"), "Name=\"d&lt;p&gt;&quot;\"");
 }
 
 TEST(FieldSeriesTest, WrongSizesAreNamed) {

@@ -36,6 +36,11 @@ TEST(FormulaTest, PowerBindsTighterThanSign) {
   EXPECT_EQ(Formula("x < 0 ? 1 : 2")(1, 0, 0, 0), 2.0);
 }
 
+TEST(FormulaTest, StepsAndRemainders) {
+  EXPECT_EQ(Formula("floor(x)")(-2.5, 0, 0, 0), -3.0);
+  EXPECT_EQ(Formula("mod(x, 2)")(5.5, 0, 0, 0), 1.5);
+}
+
 TEST(FormulaTest, CopiesAreIndependent) {
   Formula a("x + b", {{"b", 1.0}});
   Formula b = a;
@@ -73,6 +78,7 @@ TEST(FormulaTest, NamesTheUnknownWordAndItsPlace) {
             "formula '2*amplitud + x', character 3: unknown name 'amplitud'. Did you mean 'amplitude'? Known "
             "names: x, y, z, t, pi, e, H, amplitude.");
   EXPECT_CONTAINS(refusal("a*cso(x)"), "character 1: unknown name 'a'");
+  EXPECT_CONTAINS(refusal("5 % 3"), "character 3: unknown name '%'.");
   EXPECT_CONTAINS(refusal("2*cso(x)"), "character 3: unknown name 'cso'. Did you mean 'cos'?");
 }
 

@@ -141,6 +141,7 @@ class Binder {
   std::string text() const;
 
  private:
+  Key begin(const std::string& name, const std::string& type);
   Key choice_impl(const std::string& name, int current, const std::vector<std::pair<std::string, int>>& words,
                   const std::function<void(int)>& assign);
   Key choices_impl(const std::string& name, std::array<int, 2> current,

@@ -109,17 +109,19 @@ std::string alternatives(const std::vector<std::pair<std::string, int>>& words) 
 
 }  // namespace
 
-// Begins a Key; the lambdas refer to the member that the caller keeps alive until doc().
-#define LITTORAL_KEY(TYPE)                   \
-  Key key;                                   \
-  key.impl_ = std::make_shared<Key::Impl>(); \
-  Key::Impl& k = *key.impl_;                 \
-  k.binder = impl_.get();                    \
-  k.name = name;                             \
-  k.type = TYPE
+/// The lambdas of a key refer to the member that the caller keeps alive until doc().
+Binder::Key Binder::begin(const std::string& name, const std::string& type) {
+  Key key;
+  key.impl_ = std::make_shared<Key::Impl>();
+  key.impl_->binder = impl_.get();
+  key.impl_->name = name;
+  key.impl_->type = type;
+  return key;
+}
 
 Binder::Key Binder::key(const std::string& name, double& value) {
-  LITTORAL_KEY("a number");
+  Key key = begin(name, "a number");
+  Key::Impl& k = *key.impl_;
   k.read = [&value, this](const Value& v) { value = to_double(v, impl_->constants); };
   k.show = [&value] { return show(value); };
   k.numbers = [&value] { return std::vector<double>{value}; };
@@ -127,7 +129,8 @@ Binder::Key Binder::key(const std::string& name, double& value) {
 }
 
 Binder::Key Binder::key(const std::string& name, int& value) {
-  LITTORAL_KEY("a whole number");
+  Key key = begin(name, "a whole number");
+  Key::Impl& k = *key.impl_;
   k.read = [&value, this](const Value& v) { value = to_int(v, impl_->constants); };
   k.show = [&value] { return show(value); };
   k.numbers = [&value] { return std::vector<double>{static_cast<double>(value)}; };
@@ -135,21 +138,24 @@ Binder::Key Binder::key(const std::string& name, int& value) {
 }
 
 Binder::Key Binder::key(const std::string& name, bool& value) {
-  LITTORAL_KEY("true | false");
+  Key key = begin(name, "true | false");
+  Key::Impl& k = *key.impl_;
   k.read = [&value](const Value& v) { value = to_bool(v); };
   k.show = [&value] { return std::string(value ? "true" : "false"); };
   return key;
 }
 
 Binder::Key Binder::key(const std::string& name, std::string& value) {
-  LITTORAL_KEY("a text");
+  Key key = begin(name, "a text");
+  Key::Impl& k = *key.impl_;
   k.read = [&value](const Value& v) { value = scalar(v, "a text"); };
   k.show = [&value] { return show(value); };
   return key;
 }
 
 Binder::Key Binder::key(const std::string& name, std::array<double, 3>& value) {
-  LITTORAL_KEY("three numbers [x, y, z]");
+  Key key = begin(name, "three numbers [x, y, z]");
+  Key::Impl& k = *key.impl_;
   k.read = [&value, this, type = k.type](const Value& v) {
     const auto& items = list_of(v, type, 3);
     for (std::size_t d = 0; d < 3; ++d) value[d] = to_double(items[d], impl_->constants);
@@ -160,7 +166,8 @@ Binder::Key Binder::key(const std::string& name, std::array<double, 3>& value) {
 }
 
 Binder::Key Binder::key(const std::string& name, std::array<int, 3>& value) {
-  LITTORAL_KEY("three whole numbers [x, y, z]");
+  Key key = begin(name, "three whole numbers [x, y, z]");
+  Key::Impl& k = *key.impl_;
   k.read = [&value, this, type = k.type](const Value& v) {
     const auto& items = list_of(v, type, 3);
     for (std::size_t d = 0; d < 3; ++d) value[d] = to_int(items[d], impl_->constants);
@@ -171,7 +178,8 @@ Binder::Key Binder::key(const std::string& name, std::array<int, 3>& value) {
 }
 
 Binder::Key Binder::key(const std::string& name, std::vector<double>& value) {
-  LITTORAL_KEY("a list of numbers");
+  Key key = begin(name, "a list of numbers");
+  Key::Impl& k = *key.impl_;
   k.read = [&value, this, type = k.type](const Value& v) {
     value.clear();
     for (const auto& item : list_of(v, type)) value.push_back(to_double(item, impl_->constants));
@@ -182,7 +190,8 @@ Binder::Key Binder::key(const std::string& name, std::vector<double>& value) {
 }
 
 Binder::Key Binder::key(const std::string& name, std::vector<std::string>& value) {
-  LITTORAL_KEY("a list of texts");
+  Key key = begin(name, "a list of texts");
+  Key::Impl& k = *key.impl_;
   k.read = [&value, type = k.type](const Value& v) {
     value.clear();
     for (const auto& item : list_of(v, type)) value.push_back(scalar(item, "a text"));
@@ -192,7 +201,8 @@ Binder::Key Binder::key(const std::string& name, std::vector<std::string>& value
 }
 
 Binder::Key Binder::key(const std::string& name, Formula& value) {
-  LITTORAL_KEY("a number or a formula of x, y, z, t");
+  Key key = begin(name, "a number or a formula of x, y, z, t");
+  Key::Impl& k = *key.impl_;
   k.read = [&value, this](const Value& v) { value = to_formula(v, impl_->constants); };
   k.show = [&value] { return show(value); };
   k.numbers = [&value] {
@@ -202,7 +212,8 @@ Binder::Key Binder::key(const std::string& name, Formula& value) {
 }
 
 Binder::Key Binder::key(const std::string& name, std::optional<double>& value) {
-  LITTORAL_KEY("a number or auto");
+  Key key = begin(name, "a number or auto");
+  Key::Impl& k = *key.impl_;
   k.read = [&value, this](const Value& v) {
     value.reset();
     const bool none = v.kind == Value::Kind::null || (v.kind == Value::Kind::scalar && v.text == "auto");
@@ -214,7 +225,8 @@ Binder::Key Binder::key(const std::string& name, std::optional<double>& value) {
 }
 
 Binder::Key Binder::key(const std::string& name, std::optional<Formula>& value) {
-  LITTORAL_KEY("a number or a formula of x, y, z, t; may be left out");
+  Key key = begin(name, "a number or a formula of x, y, z, t; may be left out");
+  Key::Impl& k = *key.impl_;
   k.read = [&value, this](const Value& v) {
     value.reset();
     if (v.kind != Value::Kind::null) value = to_formula(v, impl_->constants);
@@ -226,7 +238,8 @@ Binder::Key Binder::key(const std::string& name, std::optional<Formula>& value) 
 Binder::Key Binder::choice_impl(const std::string& name, int current,
                                 const std::vector<std::pair<std::string, int>>& words,
                                 const std::function<void(int)>& assign) {
-  LITTORAL_KEY(alternatives(words));
+  Key key = begin(name, alternatives(words));
+  Key::Impl& k = *key.impl_;
   k.read = [words, assign](const Value& v) { assign(to_choice(v, words)); };
   k.show = [words, current] { return word_of(current, words); };
   return key;
@@ -235,7 +248,8 @@ Binder::Key Binder::choice_impl(const std::string& name, int current,
 Binder::Key Binder::choices_impl(const std::string& name, std::array<int, 2> current,
                                  const std::vector<std::pair<std::string, int>>& words,
                                  const std::function<void(std::array<int, 2>)>& assign) {
-  LITTORAL_KEY("[lower, upper], each " + alternatives(words));
+  Key key = begin(name, "[lower, upper], each " + alternatives(words));
+  Key::Impl& k = *key.impl_;
   k.read = [words, assign, type = k.type](const Value& v) {
     if (v.kind == Value::Kind::scalar) {
       const int both = to_choice(v, words);
@@ -248,59 +262,6 @@ Binder::Key Binder::choices_impl(const std::string& name, std::array<int, 2> cur
     return "[" + word_of(current[0], words) + ", " + word_of(current[1], words) + "]";
   };
   return key;
-}
-
-#undef LITTORAL_KEY
-
-void Binder::numbers(const std::string& name, const std::string& doc, std::map<std::string, double>& values) {
-  const Value* value = impl_->declare(name);
-  const std::string path = impl_->path_of(name);
-  if (impl_->mode == Mode::help) {
-    impl_->write(name + ": {}  # names and numbers. " + doc);
-    return;
-  }
-  if (impl_->mode == Mode::resolved) {
-    impl_->write(name + ":" + (values.empty() ? " {}" : ""));
-    impl_->indent += 2;
-    for (const auto& [entry, number] : values) impl_->write(entry + ": " + format_number(number));
-    impl_->indent -= 2;
-    return;
-  }
-  if (!value || value->kind == Value::Kind::null) return;
-  if (value->kind != Value::Kind::map) {
-    impl_->report(value->place, path,
-                  "'" + path + "' is a map of names and numbers; found " + value->description() + ".");
-    return;
-  }
-  std::map<std::string, double> names = impl_->constants;
-  for (const auto& [entry, content] : value->entries) {
-    const std::string full = path + "." + entry;
-    const bool word =
-        !entry.empty() && !(entry[0] >= '0' && entry[0] <= '9') &&
-        entry.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") ==
-            std::string::npos;
-    const bool taken = entry == "x" || entry == "y" || entry == "z" || entry == "t" || entry == "pi" ||
-                       entry == "e" || impl_->constants.count(entry) > 0;
-    if (!word || taken) {
-      impl_->report(content.place, full,
-                    "'" + full + "': " +
-                        (word ? "this name is already taken." : "a name has letters, digits and _ only."));
-      continue;
-    }
-    try {
-      const Formula formula = to_formula(content, names);
-      if (!formula.is_constant()) throw BadValue{"depends on x, y, z or t; expected a number"};
-      const double number = formula(0, 0, 0, 0);
-      if (!std::isfinite(number))
-        throw BadValue{"is " + format_number(number) + "; expected a finite number"};
-      values[entry] = names[entry] = number;
-    } catch (const BadValue& bad) {
-      impl_->report(content.place, full, "'" + full + "' " + bad.text + ".");
-    } catch (const ConfigError& bad) {
-      impl_->report(content.place, full, "'" + full + "': " + bad.what());
-    }
-  }
-  if (name == "constants") impl_->constants.insert(values.begin(), values.end());
 }
 
 }  // namespace littoral::support
