@@ -84,22 +84,20 @@ class Picture:
         parts = self.moments.at(time)
         top = max(float(part.speed.max()) for part in parts.values()) or 1.0
         drawn = None
-        if "fv" in parts:
-            part = parts["fv"]
-            shown = part.pick(part.status != BLANKED) if part.status is not None else part
-            shown = middle(shown)
-            drawn = axes.scatter(shown.x[:, 0], shown.x[:, 2], c=shown.speed, s=cell_size(shown.x, axes), marker="s",
-                                 cmap="viridis", vmin=0, vmax=top, linewidths=0)
+        for x, z, speed in parts["fv"].sheets() if "fv" in parts else ():
+            drawn = axes.pcolormesh(x, z, speed, cmap="viridis", vmin=0, vmax=top, edgecolors="white", linewidth=0.1)
         if "sph" in parts:
             shown = middle(parts["sph"])
-            drawn = axes.scatter(shown.x[:, 0], shown.x[:, 2], c=shown.speed, s=0.55 * cell_size(shown.x, axes),
-                                 cmap="viridis", vmin=0, vmax=top, linewidths=0)
+            size = dot_size(shown.x, axes)
+            drawn = axes.scatter(shown.x[:, 0], shown.x[:, 2], c=shown.speed, s=size, cmap="viridis", vmin=0,
+                                 vmax=top, linewidths=0.15 if size > 2 else 0, edgecolors="white")
         for region in self.regions:
             (x0, _, z0), (x1, _, z1) = region["lower"], region["upper"]
             axes.plot([x0, x1, x1, x0, x0], [z0, z0, z1, z1, z0], color="k", lw=0.8, ls="--")
         axes.set_aspect("equal")
         axes.set(xlabel="x [m]", ylabel="z [m]", title=f"t = {parts[next(iter(parts))].time:.3g} s: "
-                 "SPH particles (dots), FV cells (squares), nominal faces of the SPH region (dashed)")
+                 + ", ".join(["particles (dots)"] * ("sph" in parts) + ["cells"] * ("fv" in parts)
+                             + ["nominal faces of the particles' region (dashed)"] * bool(self.regions)))
         axes.title.set_fontsize(9)
         figure.colorbar(drawn, ax=axes, label="|u| [m/s]", fraction=0.03, pad=0.01)
 
@@ -137,10 +135,10 @@ def middle(part):
     return part.pick(np.abs(y - 0.5 * (y.min() + y.max())) <= 0.6 * spacing(part.x))
 
 
-def cell_size(x, axes):
-    """Marker area in points^2 for squares that touch, roughly, at the width of the axes."""
+def dot_size(x, axes):
+    """Area in points^2 of dots that nearly touch at the width of the axes."""
     width = axes.get_window_extent().width * 72 / axes.figure.dpi
-    return (width * spacing(x) / np.ptp(x[:, 0])) ** 2 * 0.9
+    return (0.8 * width * spacing(x) / max(np.ptp(x[:, 0]), np.ptp(x[:, 2]))) ** 2
 
 
 def overview(picture, time, path):
