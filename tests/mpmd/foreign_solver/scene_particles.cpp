@@ -43,8 +43,8 @@ void check(const FvPartner& grid, const DonorValues& donors, const support::Scen
 }
 
 int run(Job& job, int argc, char** argv) {
-  if (argc != 2) throw ConfigError("usage: scene_particles scene.yaml");
-  const auto scene = support::Scene::from_file(argv[1]);
+  if (argc < 2) throw ConfigError("usage: scene_particles scene.yaml [key=value ...]");
+  const auto scene = support::Scene::from_file(argv[1], {argv + 2, argv + argc});
   job.compare(scene.contract());
   const auto grid = job.fv_partner(plan_of(scene));
   const auto& region = scene.regions.at(0);
