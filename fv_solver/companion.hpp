@@ -1,11 +1,13 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "dual_time/stepper.hpp"
 #include "littoral/coupler/window.hpp"
+#include "littoral/support/checkpoint.hpp"
 
 namespace littoral::fv {
 
@@ -27,6 +29,14 @@ class Companion {
   /// Wall time spent waiting for the partner so far [s].
   virtual double waited() const { return 0.0; }
   virtual std::string description() const = 0;
+
+  /// What a bitwise continuation needs of the companion; load after begin.
+  virtual void save(support::CheckpointWriter&) const {}
+  virtual void load(const support::CheckpointReader&) {}
+
+  /// Where a companion says something: the solver's log.
+  std::function<void(const std::string&)> tell = [](const std::string&) {};
+  std::function<void(const std::string&)> warn = [](const std::string&) {};
 };
 
 /// Nobody: steps as long as the solver itself wants them, to the end time.

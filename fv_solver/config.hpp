@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "boundary/window.hpp"
+#include "coupling/partner_config.hpp"
 #include "littoral/support/config.hpp"
 #include "littoral/support/scene.hpp"
 #include "physics/equations.hpp"
@@ -86,6 +87,7 @@ struct FvConfig {
 
   Limiter limiter = Limiter::none;
   double forcing_constant = 10.0;  // K of (21)
+  PartnerConfig partner;
 
   struct SourceTerm {  // per volume
     std::optional<support::Formula> mass, u, v, w;

@@ -5,6 +5,8 @@
 #include <string>
 
 #include "companion.hpp"
+#include "coupling/coupled.hpp"
+#include "coupling/partner_choice.hpp"
 #include "littoral/error.hpp"
 #include "littoral/support/options.hpp"
 #include "setup.hpp"
@@ -18,17 +20,13 @@ using support::ProgramOptions;
 
 template <int D>
 std::unique_ptr<Companion<D>> companion_of(coupler::Job& job, const ProgramOptions& options,
-                                           const support::Scene& scene, const Solver<D>& solver) {
-  if (!job.has_partner() && options.replay.empty()) {
-    if (scene.has_region())
-      throw ConfigError(
-          "the scene couples particles and grid, but no sph_solver runs in this job: start both "
-          "(mpirun -n 1 sph_solver --config sph.yaml : -n 1 fv_solver --config fv.yaml), or run the grid "
-          "alone "
-          "with --set scene.coupling.kind=none");
-    return std::make_unique<Alone<D>>(solver.start_time(), scene.time.end, scene.time.max_windows);
-  }
-  throw ConfigError("this scene's coupling.kind is none, yet sph_solver runs in the same job");
+                                           const FvConfig& config, const support::Scene& scene,
+                                           const Solver<D>& solver) {
+  auto partner =
+      choose_partner(job, scene, config.partner, run_plan(scene, solver.start_time(), solver.start_window()),
+                     options.record, options.replay);
+  if (partner) return std::make_unique<Coupled<D>>(scene, config.forcing_constant, std::move(partner));
+  return std::make_unique<Alone<D>>(solver.start_time(), scene.time.end, scene.time.max_windows);
 }
 
 template <int D>
@@ -37,7 +35,7 @@ void run_scene(coupler::Job& job, const ProgramOptions& options, const FvConfig&
   if (!scene.has_region() && !config.time.dt && !config.time.cfl)
     throw ConfigError(options.config + ": a run without partner needs a step: give time.dt or time.cfl");
   Solver<D> solver(config, scene, options.out, options.restart);
-  solver.run(*companion_of<D>(job, options, scene, solver));
+  solver.run(*companion_of<D>(job, options, config, scene, solver));
 }
 
 }  // namespace

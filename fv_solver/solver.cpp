@@ -47,6 +47,7 @@ Solver<D>::Solver(const FvConfig& config, const support::Scene& scene, const std
     : config_(config),
       scene_(scene),
       folder_(make_folder(out)),
+      restart_(restart),
       restarted_(!restart.empty()),
       log_("fv_solver", 0, folder_ + "/log.txt"),
       solve_(timers_.declare("solve")),
@@ -61,7 +62,10 @@ Solver<D>::Solver(const FvConfig& config, const support::Scene& scene, const std
 template <int D>
 void Solver<D>::run(Companion<D>& companion) {
   begin_ = support::Timers::now();
+  companion.tell = [this](const std::string& message) { log_.info(message); };
+  companion.warn = [this](const std::string& message) { log_.warn(message); };
   companion.begin(stepper_);
+  if (restarted_) companion.load(support::CheckpointReader(restart_));
   output_ = std::make_unique<Output<D>>(folder_, config_, scene_, stepper_, timers_, restarted_);
   std::ptrdiff_t cells = 0;
   for (const auto& block : stepper_.blocks()) cells += block.extent.cells();
@@ -97,7 +101,8 @@ void Solver<D>::step(const coupler::Agreement& agreement, Companion<D>& companio
   const auto timing = timers_.scope(write_);
   output_->after(agreement, stepper_, outcome, companion.waited());
   if (agreement.checkpoint) {
-    write_checkpoint<D>(output_->checkpoint_path(window_), stepper_, window_, scene_);
+    write_checkpoint<D>(output_->checkpoint_path(window_), stepper_, window_, scene_,
+                        [&](support::CheckpointWriter& file) { companion.save(file); });
     last_checkpoint_ = stepper_.time();
   }
 }

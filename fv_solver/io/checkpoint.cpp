@@ -15,7 +15,8 @@ std::string key(std::size_t level, std::size_t block, const std::string& field) 
 
 template <int D>
 void write_checkpoint(const std::string& path, const Stepper<D>& stepper, std::int64_t window,
-                      const support::Scene& scene) {
+                      const support::Scene& scene,
+                      const std::function<void(support::CheckpointWriter&)>& more) {
   support::CheckpointWriter file(path);
   const auto memory = stepper.memory();
   file.put("program", std::string("fv_solver"));
@@ -35,6 +36,7 @@ void write_checkpoint(const std::string& path, const Stepper<D>& stepper, std::i
         file.put(key(level, b, "u" + std::to_string(k)), memory.level[level][b].u[k]);
     }
   }
+  if (more) more(file);
   file.commit();
 }
 
@@ -70,8 +72,10 @@ std::int64_t read_checkpoint(const std::string& path, Stepper<D>& stepper, const
   return file.integer("window");
 }
 
-template void write_checkpoint<2>(const std::string&, const Stepper<2>&, std::int64_t, const support::Scene&);
-template void write_checkpoint<3>(const std::string&, const Stepper<3>&, std::int64_t, const support::Scene&);
+template void write_checkpoint<2>(const std::string&, const Stepper<2>&, std::int64_t, const support::Scene&,
+                                  const std::function<void(support::CheckpointWriter&)>&);
+template void write_checkpoint<3>(const std::string&, const Stepper<3>&, std::int64_t, const support::Scene&,
+                                  const std::function<void(support::CheckpointWriter&)>&);
 template std::int64_t read_checkpoint<2>(const std::string&, Stepper<2>&, const support::Scene&);
 template std::int64_t read_checkpoint<3>(const std::string&, Stepper<3>&, const support::Scene&);
 

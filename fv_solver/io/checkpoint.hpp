@@ -1,17 +1,21 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 
 #include "dual_time/stepper.hpp"
+#include "littoral/support/checkpoint.hpp"
 #include "littoral/support/scene.hpp"
 
 namespace littoral::fv {
 
-/// Everything a bitwise continuation needs: all time levels with ghosts, their steps, the window reached.
+/// Everything a bitwise continuation needs: all time levels with ghosts, their steps, the window reached, and
+/// what `more` puts (the companion's memory).
 template <int D>
 void write_checkpoint(const std::string& path, const Stepper<D>& stepper, std::int64_t window,
-                      const support::Scene& scene);
+                      const support::Scene& scene,
+                      const std::function<void(support::CheckpointWriter&)>& more = {});
 
 /// Sets the stepper to a checkpoint; returns the next window's index.
 /// throws ConfigError where it belongs to another scene or grid, IoError

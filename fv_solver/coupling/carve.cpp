@@ -1,0 +1,194 @@
+#include "coupling/carve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "coupling/space.hpp"
+#include "grid/loops.hpp"
+#include "grid/metrics.hpp"
+#include "littoral/error.hpp"
+
+namespace littoral::fv {
+namespace {
+
+constexpr std::array<const char*, 3> k_axis{"x", "y", "z"};
+
+std::string text(double value) {
+  char t[32];
+  std::snprintf(t, sizeof t, "%.6g", value);
+  return t;
+}
+
+/// Distance inwards from the fringe's edge, in layers: 0 outside the region, 1 beside a computed cell, ...;
+/// cells deeper than `deepest` keep deepest + 1.
+template <int D>
+std::vector<int> layers(const Block<D>& block, const std::vector<std::uint8_t>& inside, int deepest) {
+  std::vector<int> layer(block.extent.size, 0);
+  std::vector<std::ptrdiff_t> region;
+  for_each_index<D>({}, block.extent.n, [&](const std::array<int, D>& index) {
+    const std::ptrdiff_t c = block.extent.at(index);
+    if (!inside[static_cast<std::size_t>(c)]) return;
+    layer[static_cast<std::size_t>(c)] = deepest + 1;
+    region.push_back(c);
+  });
+  for (int depth = 1; depth <= deepest; ++depth)
+    for (const std::ptrdiff_t c : region) {
+      if (layer[static_cast<std::size_t>(c)] <= depth) continue;
+      const std::array<int, D> index = block.extent.index(c);
+      std::array<int, D> lower, upper;
+      for (std::size_t d = 0; d < D; ++d) {
+        lower[d] = index[d] - 1;
+        upper[d] = index[d] + 2;
+      }
+      bool beside = false;
+      for_each_index<D>(lower, upper, [&](std::array<int, D> other) {
+        for (std::size_t d = 0; d < D; ++d) {
+          if (block.periodic[d]) other[d] = (other[d] + block.extent.n[d]) % block.extent.n[d];
+          if (other[d] < 0 || other[d] >= block.extent.n[d]) return;
+        }
+        beside = beside || layer[static_cast<std::size_t>(block.extent.at(other))] == depth - 1;
+      });
+      if (beside) layer[static_cast<std::size_t>(c)] = depth;
+    }
+  return layer;
+}
+
+/// The reconstruction beside the fringe reads two cells beyond the face: they must exist and be imposed.
+template <int D>
+void check_depth(const Block<D>& block, const std::vector<int>& layer, int fringe_layers) {
+  for_each_index<D>({}, block.extent.n, [&](const std::array<int, D>& index) {
+    if (layer[static_cast<std::size_t>(block.extent.at(index))] != 0) return;
+    for (std::size_t d = 0; d < D; ++d)
+      for (const int step : {-1, 1})
+        for (int k = 1; k <= fringe_layers; ++k) {
+          std::array<int, D> other = index;
+          other[d] += k * step;
+          if (block.periodic[d]) other[d] = (other[d] + block.extent.n[d]) % block.extent.n[d];
+          const bool in_block = other[d] >= 0 && other[d] < block.extent.n[d];
+          const bool in_region = in_block && layer[static_cast<std::size_t>(block.extent.at(other))] > 0;
+          if (k == 1 && !in_region) break;
+          if (in_region) continue;
+          const coupler::Vec3 x = centre_in_space(block, block.extent.at(index));
+          throw ConfigError(
+              "coupling.fringe_layers: " + std::to_string(fringe_layers) +
+              " layers of cells are to be imposed inside the SPH region, but next to (" + text(x[0]) + ", " +
+              text(x[1]) + ", " + text(x[2]) + ") block '" + block.name + "' has only " +
+              std::to_string(k - 1) + " in direction " + k_axis[axis_in_space<D>(d)] +
+              (in_block ? ": the region is too thin" : ": let the block reach further into the region"));
+        }
+  });
+}
+
+template <int D>
+coupler::Box bounds(const std::vector<Block<D>>& blocks) {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  coupler::Box box{{inf, inf, inf}, {-inf, -inf, -inf}};
+  for (const auto& block : blocks) {
+    std::array<int, D> upper = block.extent.n;
+    for (int& n : upper) ++n;
+    for_each_index<D>({}, upper, [&](const std::array<int, D>& index) {
+      const auto node = static_cast<std::size_t>(block.node_extent.at(index));
+      for (std::size_t d = 0; d < D; ++d) {
+        const std::size_t a = axis_in_space<D>(d);
+        box.lower[a] = std::min(box.lower[a], block.node[d][node]);
+        box.upper[a] = std::max(box.upper[a], block.node[d][node]);
+      }
+    });
+  }
+  if (D == 2) box.lower[1] = box.upper[1] = 0.0;
+  return box;
+}
+
+/// The nodes' coordinate nearest to a nominal face, among those over the face's own extent.
+template <int D>
+double nearest_node(const std::vector<Block<D>>& blocks, std::size_t direction, double face) {
+  double best = std::numeric_limits<double>::infinity();
+  for (const auto& block : blocks) {
+    std::array<int, D> upper = block.extent.n;
+    for (int& n : upper) ++n;
+    for_each_index<D>({}, upper, [&](const std::array<int, D>& index) {
+      const double x = block.node[direction][static_cast<std::size_t>(block.node_extent.at(index))];
+      if (std::abs(x - face) < std::abs(best - face)) best = x;
+    });
+  }
+  return best;
+}
+
+template <int D>
+void describe_faces(const std::vector<Block<D>>& blocks, const support::Scene& scene, Carving& carving) {
+  const coupler::Box grid = bounds(blocks);
+  for (const auto& region : scene.regions)
+    for (std::size_t d = 0; d < D; ++d)
+      for (std::size_t side = 0; side < 2; ++side) {
+        const std::size_t a = axis_in_space<D>(d);
+        if (!scene.open_face(region, a, side)) continue;
+        const double face = side == 0 ? region.lower[a] : region.upper[a];
+        carving.column_depth =
+            std::max(carving.column_depth, side == 0 ? face - grid.lower[a] : grid.upper[a] - face);
+        const double off = face - nearest_node(blocks, d, face);
+        if (std::abs(off) > 1e-6 * (grid.upper[a] - grid.lower[a]))
+          carving.notes.push_back("the region's face " + std::string(k_axis[a]) + " = " + text(face) +
+                                  " m lies " + text(std::abs(off)) + " m " + (off > 0.0 ? "above" : "below") +
+                                  " the nearest cell faces; cells belong to the side of their centres");
+      }
+}
+
+}  // namespace
+
+template <int D>
+Carving carve(std::vector<Block<D>>& blocks, const support::Scene& scene) {
+  Carving carving;
+  std::vector<bool> met(scene.regions.size(), false);
+  const bool imposed = scene.coupling.kind == support::Scene::CouplingKind::imposed;
+  for (auto& block : blocks) {
+    std::vector<std::uint8_t> inside(block.extent.size, 0);
+    for_each_index<D>({}, block.extent.n, [&](const std::array<int, D>& index) {
+      const std::ptrdiff_t c = block.extent.at(index);
+      const coupler::Vec3 x = centre_in_space(block, c);
+      for (std::size_t r = 0; r < scene.regions.size(); ++r) {
+        coupler::Box box{scene.regions[r].lower, scene.regions[r].upper};
+        if (D == 2) {
+          box.lower[1] = -1.0;
+          box.upper[1] = 1.0;
+        }
+        if (!box.contains(x)) continue;
+        inside[static_cast<std::size_t>(c)] = 1;
+        met[r] = true;
+      }
+    });
+    const std::vector<int> layer = layers<D>(block, inside, scene.coupling.fringe_layers);
+    if (imposed) check_depth<D>(block, layer, scene.coupling.fringe_layers);
+    for_each_index<D>({}, block.extent.n, [&](const std::array<int, D>& index) {
+      const auto c = static_cast<std::size_t>(block.extent.at(index));
+      if (layer[c] == 0) return;
+      if (!imposed) {
+        block.status[c] = CellStatus::forced;
+        ++carving.n_forced;
+      } else if (layer[c] <= scene.coupling.fringe_layers) {
+        block.status[c] = CellStatus::fringe;
+        ++carving.n_fringe;
+      } else {
+        block.status[c] = CellStatus::blanked;
+        ++carving.n_blanked;
+      }
+    });
+    set_solved_mask(block);
+  }
+  const coupler::Box grid = bounds(blocks);
+  for (std::size_t r = 0; r < met.size(); ++r)
+    if (!met[r])
+      throw ConfigError("regions[" + std::to_string(r) + "] holds no cell of the grid, which reaches from (" +
+                        text(grid.lower[0]) + ", " + text(grid.lower[1]) + ", " + text(grid.lower[2]) +
+                        ") to (" + text(grid.upper[0]) + ", " + text(grid.upper[1]) + ", " +
+                        text(grid.upper[2]) +
+                        ") m: the grid must reach into the region by coupling.fringe_layers cells");
+  describe_faces(blocks, scene, carving);
+  return carving;
+}
+
+template Carving carve(std::vector<Block<2>>&, const support::Scene&);
+template Carving carve(std::vector<Block<3>>&, const support::Scene&);
+
+}  // namespace littoral::fv

@@ -1,0 +1,192 @@
+#include "coupling/coupled.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "boundary/ghosts.hpp"
+#include "coupling/carve.hpp"
+#include "coupling/interface_flux.hpp"
+#include "coupling/space.hpp"
+
+namespace littoral::fv {
+
+using coupler::Schedule;
+
+template <int D>
+Coupled<D>::Coupled(const support::Scene& scene, double forcing_constant,
+                    std::unique_ptr<coupler::SphPartner> partner)
+    : scene_(scene),
+      forcing_constant_(forcing_constant),
+      partner_(std::move(partner)),
+      forced_(scene.coupling.kind == support::Scene::CouplingKind::forced) {}
+
+template <int D>
+void Coupled<D>::begin(Stepper<D>& stepper) {
+  const Carving carving = carve(stepper.blocks(), scene_);
+  for (const std::string& note : carving.notes) this->tell(note);
+  column_depth_ = carving.column_depth;
+  offer_.emplace(stepper.blocks());
+  check_layers_covered<D>(offer_->geometry(), scene_);
+  cells_.emplace(stepper, forced_ ? CellStatus::forced : CellStatus::fringe);
+  this->tell(forced_ ? std::to_string(carving.n_forced) + " cells forced by the particles"
+                     : std::to_string(carving.n_fringe) + " cells imposed by the particles, " +
+                           std::to_string(carving.n_blanked) + " blanked");
+  offer_->geometry().epoch = cells_->targets().epoch = ++epoch_;
+  partner_->offer(offer_->geometry(), cells_->targets());
+}
+
+template <int D>
+std::optional<coupler::Agreement> Coupled<D>::agree(const coupler::Proposal& mine) {
+  const coupler::Agreement agreement = partner_->agree(mine);
+  if (agreement.region_changed && !agreement.stop) {  // the particles moved between ranks: they ask anew
+    offer_->geometry().epoch = cells_->targets().epoch = ++epoch_;
+    partner_->offer(offer_->geometry(), cells_->targets());
+  }
+  return agreement;
+}
+
+template <int D>
+StepReport Coupled<D>::advance(const coupler::Window& window, Stepper<D>& stepper) {
+  warn_of_long_windows(window.dt());
+  const Schedule schedule = scene_.coupling.schedule.schedule;
+  const double flux_before = interface_mass_flux(stepper.blocks(), stepper.equations(), stepper.state());
+  StepReport total;
+  Values values;
+
+  offer_->put_state(stepper.state(), donors_);
+  if (schedule == Schedule::predicted) {
+    step(window, cells_->extrapolated(window.dt()), stepper, total);
+    offer_->put_state(stepper.state(), result_);
+    offer_->put_secant(result_, window.dt(), donors_);
+    stepper.restore();
+  } else {
+    offer_->put_rates(stepper, donors_);
+  }
+  send(window);
+  if (schedule == Schedule::concurrent) {
+    step(window, cells_->extrapolated(window.dt()), stepper, total);
+    values = receive(window, stepper);
+    if (!forced_) put_into_fringe(values, stepper);
+  } else {
+    values = receive(window, stepper);
+    step(window, values, stepper, total);
+  }
+  for (int pass = 1; pass < scene_.coupling.schedule.sph_passes(); ++pass) {
+    offer_->put_state(stepper.state(), result_);
+    offer_->put_secant(result_, window.dt(), donors_);
+    send(window);
+    values = receive(window, stepper);
+    stepper.restore();
+    step(window, values, stepper, total);
+  }
+  cells_->accept(std::move(values), window.dt());
+
+  const double flux_after = interface_mass_flux(stepper.blocks(), stepper.equations(), stepper.state());
+  mass_flux_ += 0.5 * window.dt() * (flux_before + flux_after);
+  coupler::Ledger mine;
+  mine.fv_mass_flux = mass_flux_;
+  ledger_ = partner_->exchange(window, mine);
+  return total;
+}
+
+template <int D>
+void Coupled<D>::send(const coupler::Window& window) {
+  donors_.time = donors_.horizon_begin = window.t_begin;
+  donors_.horizon_end = window.t_end;
+  partner_->send(window, donors_);
+}
+
+template <int D>
+std::vector<Imposed<D>> Coupled<D>::receive(const coupler::Window& window, const Stepper<D>& stepper) {
+  partner_->receive(window, samples_);
+  return cells_->received(stepper.blocks(), samples_, !forced_);
+}
+
+template <int D>
+void Coupled<D>::step(const coupler::Window& window, const Values& values, Stepper<D>& stepper,
+                      StepReport& total) {
+  StepReport report;
+  if (!forced_) {
+    report = stepper.advance(window.dt(), values);
+  } else {
+    const double u_ref = scene_.velocity_scale();
+    const Equations<D>& equations = stepper.equations();
+    for (std::size_t b = 0; b < values.size(); ++b) {
+      const Block<D>& block = stepper.blocks()[b];
+      Forcing<D>& forcing = stepper.forcing()[b];
+      if (values[b].cell.empty()) continue;
+      forcing.rate.assign(block.extent.size, 0.0);
+      forcing.target.resize(block.extent.size);
+      forcing.psi = equations.fluid.inverse_c2 > 0.0 ? equations.fluid.inverse_c2
+                                                     : 1.0 / (equations.speeds.c0 * equations.speeds.c0);
+      for (std::size_t m = 0; m < values[b].cell.size(); ++m) {
+        const std::size_t c = values[b].cell[m];
+        double delta = window.dt();  // (22)
+        for (std::size_t d = 0; d < D; ++d) {
+          double s2 = 0.0;
+          for (std::size_t k = 0; k < D; ++k) s2 += block.area[d][k][c] * block.area[d][k][c];
+          delta = std::min(delta, block.volume[c] / std::sqrt(s2) / u_ref);
+        }
+        forcing.rate[c] = forcing_constant_ / delta;
+        forcing.target.p[c] = values[b].p[m];
+        for (std::size_t k = 0; k < D; ++k) forcing.target.u[k][c] = values[b].u[k][m];
+      }
+    }
+    report = stepper.advance(window.dt());
+  }
+  const int cycles = total.cycles + report.cycles;  // what the window cost, all tries together
+  const bool converged = report.converged && (total.norms.empty() || total.converged);
+  total = std::move(report);
+  total.cycles = cycles;
+  total.converged = converged;
+}
+
+template <int D>
+void Coupled<D>::put_into_fringe(const Values& values, Stepper<D>& stepper) const {
+  for (std::size_t b = 0; b < values.size(); ++b) {
+    State<D>& q = stepper.state()[b];
+    for (std::size_t m = 0; m < values[b].cell.size(); ++m) {
+      q.p[values[b].cell[m]] = values[b].p[m];
+      for (std::size_t k = 0; k < D; ++k) q.u[k][values[b].cell[m]] = values[b].u[k][m];
+    }
+    fill_ghosts(stepper.blocks()[b], q);
+  }
+}
+
+/// Extrapolation in time feeds the gravest acoustic mode of the column below the particles, of period 4H/c,
+/// when a window is too large a part of it.
+template <int D>
+void Coupled<D>::warn_of_long_windows(double dt) {
+  constexpr double k_enough = 25.0;
+  const Schedule schedule = scene_.coupling.schedule.schedule;
+  if (warned_ || (schedule != Schedule::serial && schedule != Schedule::concurrent)) return;
+  const double windows = 4.0 * column_depth_ / (scene_.fluid.sound_speed * dt);
+  if (windows >= k_enough) return;
+  warned_ = true;
+  char text[320];
+  std::snprintf(
+      text, sizeof text,
+      "schedule %s with windows of %.3g s: only %.1f of them in 4H/c (H = %.4g m, depth of the grid beyond "
+      "the region); below %.0f extrapolation feeds the column's acoustic mode. Use predicted, or shorter "
+      "windows",
+      coupler::name(schedule), dt, windows, column_depth_, k_enough);
+  this->warn(text);
+}
+
+template <int D>
+void Coupled<D>::save(support::CheckpointWriter& file) const {
+  file.put("fv_mass_flux", mass_flux_);
+  cells_->save(file);
+}
+
+template <int D>
+void Coupled<D>::load(const support::CheckpointReader& file) {
+  mass_flux_ = file.number("fv_mass_flux");
+  cells_->load(file);
+}
+
+template class Coupled<2>;
+template class Coupled<3>;
+
+}  // namespace littoral::fv

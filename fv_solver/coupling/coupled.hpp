@@ -1,0 +1,66 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "companion.hpp"
+#include "coupling/donors.hpp"
+#include "coupling/target_cells.hpp"
+#include "littoral/coupler/partner.hpp"
+#include "littoral/support/scene.hpp"
+
+namespace littoral::fv {
+
+/// The particles, as the grid's companion: carves the region out of the blocks, offers donors, and carries
+/// the state over a window as the scene's schedule has it (q: the grid's state, s: samples of t^n+1):
+///
+///   serial      send q^n + q' (t - t^n); receive s; step with s
+///   predicted   step with extrapolated s; send q^n to that result; step back; receive s; step with s
+///   iterated    serial; then again: send q^n to the last result; receive s; step back; step with s
+///   concurrent  send q^n + q' (t - t^n); step with extrapolated s; receive s and put it into the fringe
+template <int D>
+class Coupled : public Companion<D> {
+ public:
+  /// forcing_constant: K of (21)
+  Coupled(const support::Scene& scene, double forcing_constant, std::unique_ptr<coupler::SphPartner> partner);
+
+  /// throws ConfigError: see carve, check_layers_covered
+  void begin(Stepper<D>& stepper) override;
+  std::optional<coupler::Agreement> agree(const coupler::Proposal& mine) override;
+  StepReport advance(const coupler::Window& window, Stepper<D>& stepper) override;
+  void goodbye(const std::string& reason) override { partner_->goodbye(reason); }
+  double waited() const override { return partner_->waited(); }
+  std::string description() const override { return partner_->description(); }
+
+  void save(support::CheckpointWriter& file) const override;
+  void load(const support::CheckpointReader& file) override;
+
+  /// Of the last window, summed over both programs.
+  const coupler::Ledger& ledger() const { return ledger_; }
+
+ private:
+  using Values = std::vector<Imposed<D>>;
+  void step(const coupler::Window& window, const Values& values, Stepper<D>& stepper, StepReport& total);
+  Values receive(const coupler::Window& window, const Stepper<D>& stepper);
+  void send(const coupler::Window& window);
+  void put_into_fringe(const Values& values, Stepper<D>& stepper) const;
+  void warn_of_long_windows(double dt);
+
+  support::Scene scene_;
+  double forcing_constant_;
+  std::unique_ptr<coupler::SphPartner> partner_;
+  bool forced_;
+  std::optional<DonorOffer<D>> offer_;
+  std::optional<TargetCells<D>> cells_;
+  coupler::DonorValues donors_, result_;
+  coupler::Samples samples_;
+  coupler::Ledger ledger_;
+  std::int64_t epoch_ = 0;
+  double mass_flux_ = 0.0;     // [kg] into the region, since the start
+  double column_depth_ = 0.0;  // [m]
+  bool warned_ = false;
+};
+
+}  // namespace littoral::fv

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <vector>
+
+#include "dual_time/stepper.hpp"
+#include "littoral/coupler/fields.hpp"
+#include "littoral/support/scene.hpp"
+
+namespace littoral::fv {
+
+/// The cells offered to the particles: per block one patch of all cells and one layer of ghosts. A cell is
+/// usable where it holds a state (computed, forced or fringe), a ghost where the cell it continues does.
+template <int D>
+class DonorOffer {
+ public:
+  explicit DonorOffer(const std::vector<Block<D>>& blocks);
+  coupler::DonorGeometry& geometry() { return geometry_; }
+  const coupler::DonorGeometry& geometry() const { return geometry_; }
+
+  /// p, u of `state` (ghosts current) into the value fields.
+  void put_state(const std::vector<State<D>>& state, coupler::DonorValues& values) const;
+  /// rates() of all blocks into the rate fields.
+  void put_rates(const Stepper<D>& stepper, coupler::DonorValues& values) const;
+  /// Rates that carry `values` to `end` (an offer's fields at t_end), linearly over dt.
+  static void put_secant(const coupler::DonorValues& end, double dt, coupler::DonorValues& values);
+
+ private:
+  std::vector<std::vector<std::size_t>> cells_;  // of each block: offsets in the patch's order
+  coupler::DonorGeometry geometry_;
+};
+
+/// Time derivative at the stepper's time of all cells of a block that hold a state, ghosts included. Imposed
+/// cells: from their own history; before there is one, from the nearest cells that have a rate.
+template <int D>
+State<D> rates(const Stepper<D>& stepper, std::size_t block);
+
+/// The driven and blending layers outside every open face of the region must find donors: checked at points
+/// on a lattice over their outer faces.
+/// throws ConfigError naming the region, the face and the point
+template <int D>
+void check_layers_covered(const coupler::DonorGeometry& geometry, const support::Scene& scene);
+
+}  // namespace littoral::fv

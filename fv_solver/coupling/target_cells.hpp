@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "dual_time/stepper.hpp"
+#include "littoral/coupler/fields.hpp"
+#include "littoral/support/checkpoint.hpp"
+
+namespace littoral::fv {
+
+/// The cells that take values from the particles (fringe or forced), and those values: now, before, and their
+/// trend, from which a schedule extrapolates.
+template <int D>
+class TargetCells {
+ public:
+  /// All cells of the given status, in the order block by block, direction 0 fastest.
+  TargetCells(const Stepper<D>& stepper, CellStatus status);
+
+  coupler::Targets& targets() { return targets_; }
+  const coupler::Targets& targets() const { return targets_; }
+
+  /// Values at time() + dt on a straight line through the last two; before there are two, along the cells'
+  /// own rates. One entry a block.
+  std::vector<Imposed<D>> extrapolated(double dt) const;
+  /// Puts samples in the order of the targets. Coupling I (`required`): every one must be ok.
+  /// throws CouplingError naming cell, place, status and coverage
+  std::vector<Imposed<D>> received(const std::vector<Block<D>>& blocks, const coupler::Samples& samples,
+                                   bool required) const;
+  /// The window is over: `values` are those of its end, dt its length.
+  void accept(std::vector<Imposed<D>> values, double dt);
+
+  void save(support::CheckpointWriter& file) const;
+  void load(const support::CheckpointReader& file);
+
+ private:
+  coupler::Targets targets_;
+  std::vector<Imposed<D>> now_, rate_;  // values and their time derivatives
+};
+
+}  // namespace littoral::fv

@@ -1,0 +1,6 @@
+# Tests of fv_solver/coupling.
+littoral_gtest(
+  NAME fv_coupling_test
+  PREFIX fv
+  SOURCES coupling_carve_test.cpp coupling_schedules_test.cpp
+  LIBS fv_core)

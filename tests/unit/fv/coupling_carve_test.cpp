@@ -1,0 +1,126 @@
+#include <gtest/gtest.h>
+
+#include "coupling/carve.hpp"
+#include "coupling_models.hpp"
+#include "littoral/coupler/donor_search.hpp"
+#include "littoral/error.hpp"
+
+namespace littoral::fv {
+namespace {
+
+using test::scene_with;
+using test::water_box;
+
+template <class Error, class F>
+std::string message_of(F&& f) {
+  try {
+    f();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "nothing was thrown";
+}
+
+TEST(CarveTest, RegionInTheMiddleGetsFringeAroundItsHole) {
+  std::vector<Block<2>> blocks{water_box<2>(20, false)};
+  const Carving carving = carve(blocks, scene_with(2, {{0.2, 0, 0.2}, {0.8, 0, 0.8}}));
+  // 12 x 12 cells inside, two rings of fringe
+  EXPECT_EQ(carving.n_fringe, 144 - 64);
+  EXPECT_EQ(carving.n_blanked, 64);
+  EXPECT_TRUE(carving.notes.empty());
+  EXPECT_NEAR(carving.column_depth, 0.2, 1e-12);
+  const Block<2>& block = blocks[0];
+  const auto status = [&](int i, int k) {
+    return block.status[static_cast<std::size_t>(block.extent.at({i, k}))];
+  };
+  EXPECT_EQ(status(3, 10), CellStatus::computed);
+  EXPECT_EQ(status(4, 10), CellStatus::fringe);
+  EXPECT_EQ(status(5, 10), CellStatus::fringe);
+  EXPECT_EQ(status(6, 10), CellStatus::blanked);
+  EXPECT_EQ(status(5, 5), CellStatus::fringe);  // diagonals count
+  EXPECT_EQ(block.solved[static_cast<std::size_t>(block.extent.at({4, 10}))], 0.0);
+}
+
+TEST(CarveTest, PeriodicNeighboursCount) {
+  std::vector<Block<2>> blocks{water_box<2>(16, true)};
+  const auto scene = test::top_scene(0.0);
+  const Carving carving = carve(blocks, scene);
+  EXPECT_EQ(carving.n_fringe, 2 * 16);
+  EXPECT_EQ(carving.n_blanked, 6 * 16);
+}
+
+TEST(CarveTest, FaceBetweenCellFacesIsReported) {
+  std::vector<Block<2>> blocks{water_box<2>(20, false)};
+  const Carving carving = carve(blocks, scene_with(2, {{0.2, 0, 0.21}, {0.8, 0, 0.8}}));
+  ASSERT_EQ(carving.notes.size(), 1u);
+  EXPECT_NE(carving.notes[0].find("0.01 m above"), std::string::npos) << carving.notes[0];
+}
+
+TEST(CarveTest, RegionOutsideTheGridIsRefused) {
+  std::vector<Block<2>> blocks{water_box<2>(20, false)};
+  const std::string what = message_of<ConfigError>([&] {
+    carve(blocks, scene_with(2, {{2, 0, 2}, {3, 0, 3}}));
+  });
+  EXPECT_NE(what.find("holds no cell of the grid, which reaches from (0, 0, 0) to (1, 0, 1)"),
+            std::string::npos)
+      << what;
+}
+
+TEST(CarveTest, GridThatEndsTooEarlyInTheRegionIsRefused) {
+  std::vector<Block<2>> blocks{water_box<2>(20, false)};
+  const std::string what = message_of<ConfigError>([&] {
+    carve(blocks, scene_with(2, {{-1, 0, 0.95}, {2, 0, 2}}));
+  });
+  EXPECT_NE(what.find("has only 1 in direction z: let the block reach further"), std::string::npos) << what;
+}
+
+TEST(CarveTest, ForcedRegionIsForcedThroughout) {
+  std::vector<Block<3>> blocks{water_box<3>(10, false)};
+  auto scene = scene_with(3, {{0.2, 0.2, 0.2}, {0.8, 0.8, 0.8}});
+  scene.coupling.kind = support::Scene::CouplingKind::forced;
+  const Carving carving = carve(blocks, scene);
+  EXPECT_EQ(carving.n_forced, 216);
+  EXPECT_EQ(carving.n_fringe + carving.n_blanked, 0);
+}
+
+TEST(DonorOfferTest, PointsBesideAPeriodicFaceFindDonorsWithTheImagesValues) {
+  auto block = water_box<2>(10, true);
+  const auto scene = scene_with(2, {{-1, 0, 0.6}, {2, 0, 2}});
+  const auto flow = [](const std::array<double, 2>& x, double) {
+    return PointState<2>{x[1], {std::sin(6.283185307179586 * x[0]), 0.0}};
+  };
+  auto stepper = test::stepper_for<2>({block}, scene, flow);
+  carve(stepper.blocks(), scene);
+  const DonorOffer<2> offer(stepper.blocks());
+  ASSERT_EQ(offer.geometry().patches.size(), 1u);
+  EXPECT_EQ(offer.geometry().patches[0].n, (std::array<int, 3>{12, 1, 12}));
+  coupler::DonorValues values;
+  offer.put_state(stepper.state(), values);
+  offer.put_rates(stepper, values);
+  values.horizon_end = 1.0;
+  const coupler::DonorSearch search(offer.geometry(), 2);
+  std::int64_t hint = -1;
+  const coupler::Donor donor =
+      search.find({0.0, 0.0, 0.3}, hint);  // on the face, between cell 0 and its ghost
+  ASSERT_TRUE(donor.found);
+  const coupler::DonorState s = coupler::interpolate(values, donor, 0.0);
+  EXPECT_NEAR(s.u[0], 0.0, 1e-12);
+  EXPECT_NEAR(s.p, 0.3, 1e-12);
+  // deep inside the hole there is nothing
+  EXPECT_FALSE(search.find({0.5, 0.0, 0.95}, hint).found);
+}
+
+TEST(DonorOfferTest, LayersBeyondTheGridAreRefused) {
+  const auto block = water_box<2>(20, false);
+  auto scene = scene_with(2, {{0.2, 0, 0.2}, {0.8, 0, 0.8}});
+  std::vector<Block<2>> blocks{block};
+  carve(blocks, scene);
+  const DonorOffer<2> offer(blocks);
+  EXPECT_NO_THROW(check_layers_covered<2>(offer.geometry(), scene));
+  scene.coupling.driven_width = 0.3;
+  const std::string what = message_of<ConfigError>([&] { check_layers_covered<2>(offer.geometry(), scene); });
+  EXPECT_NE(what.find("its driven layer ends at x = -0.15 m"), std::string::npos) << what;
+}
+
+}  // namespace
+}  // namespace littoral::fv
