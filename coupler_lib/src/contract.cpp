@@ -46,6 +46,12 @@ Contract& Contract::set(const std::string& key, double number) {
   return *this;
 }
 
+Contract& Contract::make_optional(const std::string& key) {
+  for (auto& entry : entries_)
+    if (entry.key == key) entry.is_optional = true;
+  return *this;
+}
+
 const Contract::Entry* Contract::find(const std::string& key) const {
   for (const auto& entry : entries_)
     if (entry.key == key) return &entry;
@@ -56,13 +62,13 @@ std::vector<Contract::Mismatch> Contract::compare(const Contract& theirs, double
   std::vector<Mismatch> result;
   for (const auto& entry : entries_) {
     const auto* other = theirs.find(entry.key);
-    if (!other)
+    if (!other && !entry.is_optional)
       result.push_back({entry.key, entry.text, "(absent)"});
-    else if (!agree(entry, *other, relative_tolerance))
+    else if (other && !agree(entry, *other, relative_tolerance))
       result.push_back({entry.key, entry.text, other->text});
   }
   for (const auto& entry : theirs.entries_)
-    if (!find(entry.key)) result.push_back({entry.key, "(absent)", entry.text});
+    if (!entry.is_optional && !find(entry.key)) result.push_back({entry.key, "(absent)", entry.text});
   return result;
 }
 
@@ -73,6 +79,7 @@ std::vector<char> Contract::pack() const {
   writer.value(static_cast<std::uint32_t>(entries_.size()));
   for (const auto& entry : entries_) {
     writer.value(static_cast<std::uint8_t>(entry.is_number));
+    writer.value(static_cast<std::uint8_t>(entry.is_optional));
     writer.text(entry.key);
     writer.text(entry.text);
     writer.value(entry.number);
@@ -90,6 +97,9 @@ Contract Contract::unpack(const char* bytes, std::size_t count) {
     const auto is_number = reader.value<std::uint8_t>();
     if (is_number > 1) reader.refuse("an entry is neither text nor number");
     entry.is_number = is_number == 1;
+    const auto is_optional = reader.value<std::uint8_t>();
+    if (is_optional > 1) reader.refuse("an entry is neither required nor optional");
+    entry.is_optional = is_optional == 1;
     entry.key = reader.text();
     entry.text = reader.text();
     entry.number = reader.value<double>();

@@ -15,6 +15,8 @@ endif()
 if(LITTORAL_SANITIZE)
   target_compile_options(littoral_options INTERFACE -fsanitize=${LITTORAL_SANITIZE} -fno-omit-frame-pointer)
   target_link_options(littoral_options INTERFACE -fsanitize=${LITTORAL_SANITIZE})
+  target_sources(littoral_options
+                 INTERFACE $<$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>:${CMAKE_CURRENT_LIST_DIR}/sanitizer_defaults.cpp>)
 endif()
 
 # littoral_gtest(NAME name PREFIX ctest-prefix SOURCES ... LIBS ...): one GoogleTest program, each case a ctest.

@@ -1,6 +1,7 @@
 """littoral check: both programs judge their files; then both sides are compared as the handshake will."""
 
 import math
+import re
 import subprocess
 import sys
 import tempfile
@@ -55,15 +56,20 @@ def differences(mine, theirs, tolerance=1e-12):
     return found
 
 
-def shared_part(text):
-    """The scene as a program resolved it: the `scene` map of --print-config."""
-    documents = [d for d in yaml.safe_load_all(text) if isinstance(d, dict)]
-    for document in documents:
-        if isinstance(document.get("scene"), dict):
-            return document["scene"]
-        if "fluid" in document:
-            return document
-    return {}
+def split_config(text):
+    """(program's own keys, scene's keys) of --print-config, which shows both one after the other."""
+    own, scene = {}, {}
+    for part in re.split(r"(?m)^(?:---|# (?:scene|sph|fv))\s*$", text):
+        tree = yaml.safe_load(part)
+        if not isinstance(tree, dict):
+            continue
+        if isinstance(tree.get("scene"), dict):
+            scene = tree["scene"]
+        elif "fluid" in tree:
+            scene = tree
+        else:
+            own = tree
+    return own, scene
 
 
 def check(scene, bin_dir=None):
@@ -77,8 +83,7 @@ def check(scene, bin_dir=None):
             continue
         status, output, errors = ask(program, scene, "--print-config", bin_dir)
         try:
-            configs[program] = next((d for d in yaml.safe_load_all(output) if isinstance(d, dict)), {})
-            configs[program, "scene"] = shared_part(output)
+            configs[program], configs[program, "scene"] = split_config(output)
         except yaml.YAMLError as problem:
             problems.append(f"{program}: --print-config is no YAML: {problem}")
     if ("sph", "scene") in configs and ("fv", "scene") in configs:

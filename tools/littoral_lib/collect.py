@@ -64,6 +64,8 @@ def collect(out, scene, job):
                "settings": scene.settings, **job, "results": results,
                "programs": {p: read_json(out / p / "summary.json") for p in scene.programs}}
     summary["regions"] = scene.regions()
+    summary["density"] = scene.value("fluid.density", 1000.0)
+    summary["gravity"] = scene.vector("gravity")
     reference = scene.reference()
     if reference:
         summary["reference"] = reference

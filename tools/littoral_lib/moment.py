@@ -21,12 +21,12 @@ class Part:
         def first(names):
             return next((snapshot[n] for n in names if n in snapshot.names), None)
 
+        self.snapshot = snapshot
         self.time = snapshot.time
         self.x = snapshot.points
         self.u = first(VELOCITY)
         self.p = first(PRESSURE)
         self.status = first(KIND)
-        self.extent = None
         if self.u is not None and self.u.ndim == 1:
             self.u = None
 
@@ -40,6 +40,23 @@ class Part:
     @property
     def speed(self):
         return np.linalg.norm(self.u, axis=1)
+
+
+    def sheets(self):
+        """The blocks' middle sheets along y: (x, z of the nodes, speed of the cells, blanked ones masked)."""
+        for piece in self.snapshot.pieces:
+            if not piece.structured:
+                continue
+            nk, nj, ni = piece.nodes
+            nodes = piece.coordinates().reshape(nk, nj, ni, 3)
+            name = next(n for n in VELOCITY if n in piece.fields)
+            u = piece.field(name).reshape(nk - 1, max(nj - 1, 1), ni - 1, 3)
+            j = (nj - 1) // 2
+            speed = np.ma.array(np.linalg.norm(u[:, min(j, u.shape[1] - 1)], axis=-1))
+            for status in (piece.field(n) for n in KIND if n in piece.fields):
+                blanked = status.reshape(u.shape[:3])[:, min(j, u.shape[1] - 1)] == BLANKED
+                speed = np.ma.masked_where(blanked, speed)
+            yield nodes[:, j, :, 0], nodes[:, j, :, 2], speed
 
 
 class Moments:

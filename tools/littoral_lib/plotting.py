@@ -44,6 +44,16 @@ class Picture:
         path = self.out / "scalars.csv"
         return tables.read_csv(path) if path.is_file() else None
 
+    def moment(self):
+        """Time of the field picture: of a wave when it is both raised and moving, else of the fastest water."""
+        if self.wave and self.moments.times()[-1] > 1.125 * self.wave.wave.period0:
+            return 1.125 * self.wave.wave.period0
+        return self.moments.most_lively()
+
+    def excess_pressure(self, part):
+        """p without the weight of the water at rest density, so that a kink of a few pascals is seen [Pa]."""
+        return part.p - self.summary.get("density", 0.0) * part.x @ self.summary.get("gravity", [0, 0, 0])
+
     # Panels, each into given axes.
 
     def elevation(self, axes):
@@ -53,7 +63,7 @@ class Picture:
         period = wave.wave.period0
         axes.plot(t / period, wave.wave.elevation(t) / scale, color="#888888", lw=3, label="exact (linear, viscous)")
         axes.plot(wave.gauge_time / period, wave.elevation / scale, color=COLOURS["sph"], lw=1, label="computed")
-        axes.set(xlabel="time / inviscid period", ylabel="elevation at x = 0 / a")
+        axes.set(xlabel="time / inviscid period", ylabel="elevation at x = 0 / a", ylim=(-1.15, 1.4))
         axes.legend(loc="upper right", ncol=2)
 
     def energy(self, axes):
@@ -66,7 +76,7 @@ class Picture:
         axes.plot(t / period, exact_kinetic / exact_energy[0], color="#cccccc", lw=2.5)
         axes.plot(wave.time / period, wave.energy / start, color=COLOURS["all"], lw=1, label="total")
         axes.plot(wave.time / period, wave.kinetic / start, color=COLOURS["fv"], lw=1, label="kinetic")
-        axes.set(xlabel="time / inviscid period", ylabel="energy / initial energy", ylim=(0, None))
+        axes.set(xlabel="time / inviscid period", ylabel="energy / initial energy", ylim=(0, 1.3))
         axes.legend(loc="upper right", ncol=3)
 
     def history(self, axes):
@@ -84,22 +94,20 @@ class Picture:
         parts = self.moments.at(time)
         top = max(float(part.speed.max()) for part in parts.values()) or 1.0
         drawn = None
-        if "fv" in parts:
-            part = parts["fv"]
-            shown = part.pick(part.status != BLANKED) if part.status is not None else part
-            shown = middle(shown)
-            drawn = axes.scatter(shown.x[:, 0], shown.x[:, 2], c=shown.speed, s=cell_size(shown.x, axes), marker="s",
-                                 cmap="viridis", vmin=0, vmax=top, linewidths=0)
+        for x, z, speed in parts["fv"].sheets() if "fv" in parts else ():
+            drawn = axes.pcolormesh(x, z, speed, cmap="viridis", vmin=0, vmax=top, edgecolors="white", linewidth=0.1)
         if "sph" in parts:
             shown = middle(parts["sph"])
-            drawn = axes.scatter(shown.x[:, 0], shown.x[:, 2], c=shown.speed, s=0.55 * cell_size(shown.x, axes),
-                                 cmap="viridis", vmin=0, vmax=top, linewidths=0)
+            size = dot_size(shown.x, axes)
+            drawn = axes.scatter(shown.x[:, 0], shown.x[:, 2], c=shown.speed, s=size, cmap="viridis", vmin=0,
+                                 vmax=top, linewidths=0.15 if size > 2 else 0, edgecolors="white")
         for region in self.regions:
             (x0, _, z0), (x1, _, z1) = region["lower"], region["upper"]
             axes.plot([x0, x1, x1, x0, x0], [z0, z0, z1, z1, z0], color="k", lw=0.8, ls="--")
         axes.set_aspect("equal")
         axes.set(xlabel="x [m]", ylabel="z [m]", title=f"t = {parts[next(iter(parts))].time:.3g} s: "
-                 "SPH particles (dots), FV cells (squares), nominal faces of the SPH region (dashed)")
+                 + ", ".join(["particles (dots)"] * ("sph" in parts) + ["cells"] * ("fv" in parts)
+                             + ["nominal faces of the particles' region (dashed)"] * bool(self.regions)))
         axes.title.set_fontsize(9)
         figure.colorbar(drawn, ax=axes, label="|u| [m/s]", fraction=0.03, pad=0.01)
 
@@ -119,6 +127,7 @@ class Picture:
                       mfc="none" if program == "fv" else None, color=COLOURS[program], label=NAMES[program])
         for region in self.regions:
             axes.axhline(region["lower"][2], color="k", lw=0.8, ls="--")
+        axes.locator_params(axis="x", nbins=5)
         axes.set(xlabel=label, ylabel="z [m]")
 
 
@@ -137,10 +146,10 @@ def middle(part):
     return part.pick(np.abs(y - 0.5 * (y.min() + y.max())) <= 0.6 * spacing(part.x))
 
 
-def cell_size(x, axes):
-    """Marker area in points^2 for squares that touch, roughly, at the width of the axes."""
+def dot_size(x, axes):
+    """Area in points^2 of dots that nearly touch at the width of the axes."""
     width = axes.get_window_extent().width * 72 / axes.figure.dpi
-    return (width * spacing(x) / np.ptp(x[:, 0])) ** 2 * 0.9
+    return (0.8 * width * spacing(x) / max(np.ptp(x[:, 0]), np.ptp(x[:, 2]))) ** 2
 
 
 def overview(picture, time, path):
@@ -167,7 +176,7 @@ def profiles(picture, time, path):
     x = np.concatenate([p.x[:, 0] for p in part.values()])
     left, right = x.min(), x.max()
     antinode, quarter = left, left + 0.25 * (right - left)
-    picture.profile(axes[0], time, lambda p: p.p, antinode, f"p [Pa] at x = {antinode:.3g} m")
+    picture.profile(axes[0], time, picture.excess_pressure, antinode, f"p - rho g . x [Pa] at x = {antinode:.3g} m")
     picture.profile(axes[1], time, lambda p: p.u[:, 2], antinode, f"w [m/s] at x = {antinode:.3g} m")
     picture.profile(axes[2], time, lambda p: p.u[:, 0], quarter, f"u [m/s] at x = {quarter:.3g} m")
     axes[0].legend(loc="best")
@@ -182,7 +191,7 @@ def command(args):
     folder.mkdir(parents=True, exist_ok=True)
     time = args.time
     if picture.moments and time is None:
-        time = picture.moments.most_lively()
+        time = picture.moment()
     overview(picture, time, folder / "overview.png")
     pictures = [folder / "overview.png"]
     if picture.moments:

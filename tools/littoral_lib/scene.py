@@ -102,6 +102,11 @@ class Scene:
             node = node[key]
         return evaluate(node, self.constants())
 
+    def vector(self, key):
+        """Three numbers at a top-level key; zeros where it is absent."""
+        constants = self.constants()
+        return [evaluate(v, constants) for v in self.data.get(key) or (0, 0, 0)]
+
     def regions(self):
         """The SPH region's boxes as numbers."""
         constants = self.constants()

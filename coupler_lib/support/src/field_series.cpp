@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <numeric>
 #include <sstream>
 
 #include "hdf5_file.hpp"
@@ -91,6 +92,9 @@ void FieldSeries::write_points(double time, const std::vector<double>& xyz,
   impl_->require_size("xyz", xyz.size(), 3 * n);
   Hdf5Image image(impl_->h5_path());
   image.put("xyz", {n, 3}, xyz.data());
+  std::vector<std::int32_t> vertices(n);
+  std::iota(vertices.begin(), vertices.end(), 0);
+  image.put("vertices", {n, 1}, vertices.data());
   for (const auto& field : point_fields) {
     const auto components = static_cast<std::size_t>(field.components);
     impl_->require_size("field '" + field.name + "'", field.values.size(), components * n);

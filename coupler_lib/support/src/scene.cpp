@@ -198,6 +198,13 @@ coupler::Contract Scene::contract() const {
   contract.set("time.end", time.end);
   contract.set("time.max_windows", time.max_windows);
   contract.set("scene digest", digest);
+  // Another solver that has no scene file need not repeat what is only ours: the rest of the flow's domain,
+  // the layers within the particles' region, when we stop early, the file.
+  for (const auto& entry : std::vector<coupler::Contract::Entry>(contract.entries()))
+    if (entry.key.rfind("domain.", 0) == 0) contract.make_optional(entry.key);
+  for (const char* key : {"coupling.blending_width", "coupling.driven_width", "coupling.fringe_layers",
+                          "time.max_windows", "scene digest"})
+    contract.make_optional(key);
   return contract;
 }
 

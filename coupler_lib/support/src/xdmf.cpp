@@ -39,9 +39,10 @@ std::string exact(double number) {
   return text.data();
 }
 
-std::string data_item(const std::string& shape, const std::string& h5, const std::string& dataset) {
-  return "<DataItem Format=\"HDF\" NumberType=\"Float\" Precision=\"8\" Dimensions=\"" + shape + "\">" +
-         escaped(h5) + ":/" + escaped(dataset) + "</DataItem>";
+std::string data_item(const std::string& shape, const std::string& h5, const std::string& dataset,
+                      const std::string& type = "Float\" Precision=\"8") {
+  return "<DataItem Format=\"HDF\" NumberType=\"" + type + "\" Dimensions=\"" + shape + "\">" + escaped(h5) +
+         ":/" + escaped(dataset) + "</DataItem>";
 }
 
 std::string attribute(const OutputField& field, const std::string& center, const std::string& shape,
@@ -65,8 +66,10 @@ std::string xdmf_points(int step, double time, const std::string& h5, std::size_
   const std::string n = std::to_string(n_points);
   const std::string inner = k_margin + "  ";
   std::string out = begin_step(step, "GridType=\"Uniform\"") + time_line(time);
+  // ParaView's newer reader shows points without this list as no cells at all
   out += inner + "<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"" + n +
-         "\" NodesPerElement=\"1\"/>\n";
+         "\" NodesPerElement=\"1\">" + data_item(n + " 1", h5, "vertices", "Int\" Precision=\"4") +
+         "</Topology>\n";
   out += inner + "<Geometry GeometryType=\"XYZ\">" + data_item(n + " 3", h5, "xyz") + "</Geometry>\n";
   for (const auto& field : fields) out += inner + attribute(field, "Node", n, h5, field.name);
   return out + k_margin + "</Grid>\n";

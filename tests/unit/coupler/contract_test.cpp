@@ -52,6 +52,23 @@ TEST(ContractTest, NotANumberNeverAgrees) {
   EXPECT_EQ(contract.compare(contract).size(), 1u);
 }
 
+TEST(ContractTest, OptionalEntriesAreComparedOnlyWhereBothGiveThem) {
+  Contract mine = example(), theirs = example();
+  mine.set("digest", "ab12").make_optional("digest");
+  EXPECT_TRUE(mine.compare(theirs).empty());
+  EXPECT_TRUE(theirs.compare(mine).empty());
+  theirs.set("digest", "cd34");
+  EXPECT_EQ(mine.compare(theirs).size(), 1u);
+  EXPECT_EQ(theirs.compare(mine).size(), 1u);
+}
+
+TEST(ContractTest, OptionalSurvivesPacking) {
+  const auto bytes = example().make_optional("kind").pack();
+  const Contract back = Contract::unpack(bytes.data(), bytes.size());
+  EXPECT_TRUE(back.find("kind")->is_optional);
+  EXPECT_FALSE(back.find("dimension")->is_optional);
+}
+
 TEST(ContractTest, SettingAKeyAgainReplacesIt) {
   Contract contract;
   contract.set("a", "text").set("a", 2.0);

@@ -239,6 +239,17 @@ TEST(BinderTest, SettingsReplaceAndAdd) {
   EXPECT_EQ(s.probe_depth, 9.0);
 }
 
+TEST(BinderTest, ItemsOfTheDefaultDoNotShowThrough) {
+  Sample s;
+  s.blocks.resize(2);
+  s.blocks[0].stretch = 7.0;
+  Binder binder(Document::from_text("blocks: [{cells: [1, 2, 3]}]", "fv.yaml"));
+  s.bind(binder);
+  binder.finish();
+  ASSERT_EQ(s.blocks.size(), 1U);
+  EXPECT_EQ(s.blocks[0].stretch, 1.0);
+}
+
 TEST(BinderTest, SettingOfAnUnknownKeyIsNamed) {
   EXPECT_EQ(
       refusal("{}", {"time.clf=2"}),

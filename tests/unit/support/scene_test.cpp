@@ -171,6 +171,18 @@ TEST_F(SceneTest, ContractsOfTheSameSceneAgree) {
   EXPECT_TRUE(infinite.contract().compare(infinite.contract()).empty());
 }
 
+// Another solver knows the physics and the windows, but has no scene file to take a digest of.
+TEST_F(SceneTest, ContractAsksOnlyForWhatTheExchangeNeeds) {
+  std::string required;
+  for (const auto& mismatch : read().contract().compare({})) required += mismatch.key + " ";
+  EXPECT_EQ(required,
+            "dimension axes sign of phi fluid.density fluid.sound_speed fluid.reference_pressure "
+            "fluid.viscosity gravity.x gravity.y gravity.z free surface regions regions[0].lower.x "
+            "regions[0].lower.y regions[0].lower.z regions[0].upper.x regions[0].upper.y "
+            "regions[0].upper.z coupling.kind coupling.schedule coupling.passes coupling.substeps "
+            "time.end ");
+}
+
 TEST_F(SceneTest, ContractNamesEveryDifference) {
   const auto keys = [&](const std::vector<std::string>& settings) {
     std::string out;

@@ -64,7 +64,8 @@ class Files(unittest.TestCase):
             tables.write_csv(self.out / program / "scalars.csv", share([0, 1], mass).columns)
             (self.out / program / "summary.json").write_text('{"version": "9"}')
         scene = types.SimpleNamespace(programs=["sph", "fv"], name="s", data={}, folder="f", settings=[],
-                                      reference=lambda: None, regions=lambda: [])
+                                      reference=lambda: None, regions=lambda: [],
+                                      value=lambda key, default: default, vector=lambda key: [0, 0, 0])
         collect.collect(self.out, scene, {"status": 0, "ranks": {"sph": 1, "fv": 1}})
         summary = json.loads((self.out / "summary.json").read_text())
         self.assertEqual(summary["results"]["mass_last"], 3.75)

@@ -7,7 +7,8 @@ namespace littoral::coupler {
 
 /// What both programs must agree on before the first window: named entries, texts or numbers.
 /// Numbers agree within a relative tolerance (both sides read the same file, so it is round-off of a
-/// conversion).
+/// conversion). Both sides must give a required entry. An optional one is compared where both give it: it is
+/// what the exchange could do without, or what only programs that read the same file can know.
 class Contract {
  public:
   struct Entry {
@@ -15,6 +16,7 @@ class Contract {
     std::string text;  // for a number: its shortest exact decimal form
     double number = 0.0;
     bool is_number = false;
+    bool is_optional = false;
   };
   struct Mismatch {
     std::string key;
@@ -25,6 +27,7 @@ class Contract {
   Contract& set(const std::string& key, const std::string& text);
   Contract& set(const std::string& key, const char* text) { return set(key, std::string(text)); }
   Contract& set(const std::string& key, double number);
+  Contract& make_optional(const std::string& key);  ///< pre: the key is set
   const std::vector<Entry>& entries() const { return entries_; }
   const Entry* find(const std::string& key) const;
 

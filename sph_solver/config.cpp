@@ -1,0 +1,169 @@
+#include "config.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "littoral/error.hpp"
+
+namespace littoral::sph {
+namespace {
+
+const std::vector<std::pair<std::string, Reconstruction>> k_reconstructions = {
+    {"first_order", Reconstruction::first_order},
+    {"unlimited", Reconstruction::unlimited},
+    {"minmod", Reconstruction::minmod},
+    {"van_leer", Reconstruction::van_leer}};
+const std::vector<std::pair<std::string, GaugeConfig::Kind>> k_gauges = {
+    {"point", GaugeConfig::Kind::point}, {"elevation", GaugeConfig::Kind::elevation}};
+const std::vector<std::pair<std::string, Config::Precision>> k_precisions = {
+    {"double", Config::Precision::in_double}};
+
+}  // namespace
+
+void Config::bind(support::Binder& b) {
+  b.key("scene", scene).doc("File of the scene, shared with the partner; relative to this file.");
+  b.key("spacing", spacing)
+      .unit("m")
+      .required()
+      .exclusive_min(0)
+      .doc("Particle spacing dx of the initial lattice.");
+  b.key("kernel_radius", kernel_radius)
+      .unit("dx")
+      .min(2)
+      .max(6)
+      .doc("Radius R of the kernel in spacings; auto: 4 in 2-D, 2.7 in 3-D.");
+  b.choice("reconstruction", reconstruction, k_reconstructions)
+      .doc("States of the Riemann problem between two particles: how their gradients are used.");
+  b.section("shifting", "Keeps the particles evenly spread.", [&] {
+    b.key("enabled", shifting).doc("Move particles towards voids, along the surface only where it is near.");
+  });
+  b.section("time", "Limits of the time step.", [&] {
+    b.key("cfl", cfl).unit("-").exclusive_min(0).max(1).doc("Of R / c.");
+    b.key("viscous_cfl", viscous_cfl).unit("-").exclusive_min(0).max(1).doc("Of R^2 / nu.");
+    b.key("force_cfl", force_cfl).unit("-").exclusive_min(0).max(2).doc("Of sqrt(R / |du/dt|).");
+  });
+  b.section("neighbors", "Lists of neighbours.", [&] {
+    b.key("skin", skin)
+        .unit("dx")
+        .exclusive_min(0)
+        .max(4)
+        .doc("Reach of the lists beyond the kernel; a wider skin lets them live longer.");
+  });
+  b.choice("precision", precision, k_precisions).doc("Of the pair loops.");
+  b.section("output", "What is written besides scalars.", [&] {
+    b.key("fields", fields)
+        .doc("Of the particles: velocity, pressure, density, volume, zone, surface, normal, shift, id.");
+  });
+  b.list<GaugeConfig>(
+      "gauges", "Places recorded each window, in gauges.csv.", gauges,
+      [](support::Binder& item, GaugeConfig& gauge) {
+        item.key("name", gauge.name).required().doc("Column prefix.");
+        item.choice("kind", gauge.kind, k_gauges)
+            .doc("point: pressure and velocity; elevation: of the surface on a vertical line.");
+        item.key("position", gauge.position).unit("m").required().doc("x, y, z.");
+      });
+  coupling.bind(b);
+  const std::vector<std::string> known = {"velocity", "pressure", "density", "volume", "zone",
+                                          "surface",  "normal",   "shift",   "id"};
+  for (const auto& field : fields)
+    b.check(std::find(known.begin(), known.end(), field) != known.end(), "output.fields",
+            "no field is called '" + field + "'");
+}
+
+RunConfig read_config(const std::string& path, const std::vector<std::string>& settings,
+                      const std::vector<std::string>& scene_settings) {
+  support::Document document = support::Document::from_file(path);
+  for (const auto& setting : settings) document.set(setting);
+  RunConfig config;
+  {
+    support::Binder first(document);  // the scene first: this file's formulas may use its constants
+    first.key("scene", config.sph.scene).doc("");
+  }
+  config.scene = support::Scene::from_file(document.resolve(config.sph.scene), scene_settings);
+  support::Binder binder(document);
+  binder.use_constants(config.scene.constants);
+  config.sph.bind(binder);
+  binder.finish();
+  if (!std::isfinite(config.scene.fluid.sound_speed))
+    throw ConfigError(
+        document.resolve(config.sph.scene) +
+        ": fluid.sound_speed is infinite; particles need a finite one, 10 times the highest speed.");
+  return config;
+}
+
+std::string resolved_text(RunConfig config) {
+  support::Binder scene(support::Binder::Mode::resolved), sph(support::Binder::Mode::resolved);
+  config.scene.bind(scene);
+  config.sph.bind(sph);
+  std::istringstream lines(scene.text());
+  std::string text = sph.text() + "---\nscene:\n";
+  for (std::string line; std::getline(lines, line);) text += line.empty() ? "\n" : "  " + line + "\n";
+  return text;
+}
+
+std::string help_text() {
+  support::Binder binder(support::Binder::Mode::help);
+  Config config;
+  config.bind(binder);
+  return binder.text();
+}
+
+template <int D>
+Numerics<D> numerics_of(const RunConfig& config) {
+  const auto& [scene, sph] = config;
+  Numerics<D> numerics;
+  numerics.eos = {scene.fluid.density, scene.fluid.sound_speed, scene.fluid.reference_pressure};
+  numerics.viscosity = scene.fluid.viscosity;
+  for (std::size_t d = 0; d < D; ++d) numerics.gravity[d] = scene.gravity[scene_axis<D>(d)];
+  numerics.free_surface = scene.has_free_surface();
+  numerics.spacing = sph.spacing;
+  numerics.kernel_radius = sph.kernel_radius.value_or(D == 2 ? 4.0 : 2.7) * sph.spacing;
+  numerics.skin = sph.skin * sph.spacing;
+  numerics.reconstruction = sph.reconstruction;
+  numerics.shifting = sph.shifting;
+  numerics.reference_velocity =
+      scene.reference_velocity > 0.0 ? scene.reference_velocity : 0.1 * scene.fluid.sound_speed;
+  numerics.cfl = sph.cfl;
+  numerics.viscous_cfl = sph.viscous_cfl;
+  numerics.force_cfl = sph.force_cfl;
+  return numerics;
+}
+
+template <int D>
+DomainBox<D> domain_of(const RunConfig& config) {
+  const auto& [scene, sph] = config;
+  const double reach = numerics_of<D>(config).kernel_radius + sph.skin * sph.spacing;
+  DomainBox<D> box;
+  std::string problems;
+  for (std::size_t d = 0; d < D; ++d) {
+    const std::size_t axis = scene_axis<D>(d);
+    box.lower[d] = scene.domain.lower[axis];
+    box.upper[d] = scene.domain.upper[axis];
+    box.sides[d] = scene.domain.sides[axis];
+    const bool closed =
+        box.sides[d][0] != support::Scene::Side::open && box.sides[d][1] != support::Scene::Side::open;
+    if (!closed) continue;
+    std::ostringstream text;
+    const double length = box.length(d), rows = length / sph.spacing;
+    const char name = "xyz"[axis];
+    if (std::fabs(rows - std::round(rows)) > 1e-6 * rows) {
+      text << "spacing " << sph.spacing << " m does not divide the domain's length along " << name << ", "
+           << length << " m, which is closed at both ends. Next that do: " << length / std::floor(rows + 1.0)
+           << ", " << length / std::max(1.0, std::floor(rows)) << ".\n";
+    }
+    if (length < reach)
+      text << "the domain is " << length << " m long along " << name
+           << ", less than the reach of the neighbour lists, " << reach << " m. Use a smaller spacing.\n";
+    problems += text.str();
+  }
+  if (!problems.empty()) throw ConfigError("sph.yaml: " + problems.substr(0, problems.size() - 1));
+  return box;
+}
+
+template Numerics<2> numerics_of<2>(const RunConfig&);
+template Numerics<3> numerics_of<3>(const RunConfig&);
+template DomainBox<2> domain_of<2>(const RunConfig&);
+template DomainBox<3> domain_of<3>(const RunConfig&);
+
+}  // namespace littoral::sph

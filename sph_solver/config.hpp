@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "boundary/domain_box.hpp"
+#include "coupling/coupling_config.hpp"
+#include "littoral/support/config.hpp"
+#include "littoral/support/scene.hpp"
+#include "physics/numerics.hpp"
+
+namespace littoral::sph {
+
+/// A place where the flow is recorded each window.
+struct GaugeConfig {
+  enum class Kind { point, elevation };
+  std::string name;
+  Kind kind = Kind::point;
+  std::array<double, 3> position = {0, 0, 0};  // [m] elevation: z is ignored
+};
+
+/// Content of sph.yaml.
+struct Config {
+  std::string scene = "scene.yaml";
+  double spacing = 0.0;                 // dx [m]
+  std::optional<double> kernel_radius;  // [dx]; absent: 4 in 2-D, 2.7 in 3-D
+  Reconstruction reconstruction = Reconstruction::unlimited;
+  bool shifting = true;
+  double cfl = 0.375;
+  double viscous_cfl = 0.12;
+  double force_cfl = 0.25;
+  double skin = 0.3;  // [dx]
+  enum class Precision { in_double } precision = Precision::in_double;
+  std::vector<std::string> fields = {"velocity", "pressure"};
+  std::vector<GaugeConfig> gauges;
+  CouplingConfig coupling;
+
+  void bind(support::Binder& b);
+};
+
+/// Both files of a run.
+struct RunConfig {
+  support::Scene scene;
+  Config sph;
+};
+
+/// Reads sph.yaml and the scene it names. throws ConfigError with all problems
+RunConfig read_config(const std::string& path, const std::vector<std::string>& settings,
+                      const std::vector<std::string>& scene_settings);
+std::string resolved_text(RunConfig config);  ///< YAML of both, every key
+std::string help_text();                      ///< every key of sph.yaml
+
+template <int D>
+Numerics<D> numerics_of(const RunConfig& config);
+/// throws ConfigError: a periodic or mirrored length that is no multiple of the spacing, or shorter than the
+/// kernel radius
+template <int D>
+DomainBox<D> domain_of(const RunConfig& config);
+
+}  // namespace littoral::sph

@@ -1,0 +1,126 @@
+#include "io/output.hpp"
+
+#include <algorithm>
+
+#include "io/energies.hpp"
+#include "io/gauges.hpp"
+#include "littoral/support/timers.hpp"
+
+namespace littoral::sph {
+namespace {
+
+std::vector<std::string> scalar_columns() {
+  std::vector<std::string> columns = {
+      "time",          "dt",           "substeps",      "kinetic_energy", "potential_energy",
+      "mass",          "n_particles",  "largest_speed", "mass_in_region", "mass_on_faces",
+      "mass_injected", "mass_removed", "mass_flux",     "fv_mass_flux",   "n_injected",
+      "n_removed",     "ledger_defect"};
+  for (const char* phase : k_phase_names) columns.push_back(std::string("seconds_") + phase);
+  columns.insert(columns.end(), {"seconds_output", "seconds_wait"});
+  return columns;
+}
+
+std::vector<std::string> with_time(std::vector<std::string> columns) {
+  columns.insert(columns.begin(), "time");
+  return columns;
+}
+
+/// A field of the particles by its name in sph.yaml; vectors get three components, y = 0 in 2-D.
+template <int D>
+support::OutputField field(const std::string& name, const Particles<D>& particles) {
+  support::OutputField out{name, 1, {}};
+  const std::size_t n = particles.n_owned;
+  const auto vector = [&](const std::array<std::vector<double>, D>& columns) {
+    out.components = 3;
+    out.values.assign(3 * n, 0.0);
+    for (std::size_t d = 0; d < D; ++d)
+      for (std::size_t i = 0; i < n; ++i) out.values[3 * i + scene_axis<D>(d)] = columns[d][i];
+  };
+  const auto scalar = [&](const auto& value) {
+    out.values.resize(n);
+    for (std::size_t i = 0; i < n; ++i) out.values[i] = value(i);
+  };
+  if (name == "position") vector(particles.x);
+  if (name == "velocity") vector(particles.u);
+  if (name == "normal") vector(particles.normal);
+  if (name == "shift") vector(particles.shift);
+  if (name == "pressure") scalar([&](std::size_t i) { return particles.p[i]; });
+  if (name == "density") scalar([&](std::size_t i) { return particles.rho[i]; });
+  if (name == "volume") scalar([&](std::size_t i) { return particles.V[i]; });
+  if (name == "zone") scalar([&](std::size_t i) { return static_cast<double>(particles.zone[i]); });
+  if (name == "surface") scalar([&](std::size_t i) { return static_cast<double>(particles.surface[i]); });
+  if (name == "id") scalar([&](std::size_t i) { return static_cast<double>(particles.id[i]); });
+  return out;
+}
+
+/// Adds the wall time of its life to a sum.
+struct Stopwatch {
+  double& sum;
+  double begin = support::Timers::now();
+  ~Stopwatch() { sum += support::Timers::now() - begin; }
+};
+
+}  // namespace
+
+template <int D>
+Output<D>::Output(const std::string& folder, const RunConfig& config)
+    : config_(config),
+      gravity_(numerics_of<D>(config).gravity),
+      scalars_(folder + "/scalars.csv", scalar_columns(),
+               "SI units; in 2-D per metre of width; seconds_: wall time so far"),
+      fields_(folder, "particles", false, 0.0) {
+  if (!config.sph.gauges.empty())
+    gauges_.emplace(folder + "/gauges.csv", with_time(gauge_columns(config.sph.gauges, D)));
+}
+
+template <int D>
+bool Output<D>::fields_due(double time) const {
+  const double interval = config_.scene.time.field_interval;
+  return interval > 0.0 && time >= last_fields_ + interval * (1.0 - 1e-9);
+}
+
+template <int D>
+void Output<D>::write_rows(const Moment& now, const Particles<D>& particles, const Dynamics<D>& dynamics,
+                           const Layers<D>& layers) {
+  const Stopwatch watch{seconds_};
+  const Totals sum = totals<D>(particles, gravity_, layers);
+  const auto& ledger = now.ledger;
+  std::vector<double> row = {now.time,
+                             now.dt,
+                             static_cast<double>(now.substeps),
+                             sum.kinetic,
+                             sum.potential,
+                             sum.mass,
+                             static_cast<double>(sum.n),
+                             sum.speed,
+                             ledger.mass_inside,
+                             ledger.mass_on_faces,
+                             ledger.mass_injected,
+                             ledger.mass_removed,
+                             ledger.mass_flux,
+                             ledger.fv_mass_flux,
+                             ledger.n_injected,
+                             ledger.n_removed,
+                             ledger.defect};
+  for (std::size_t phase = 0; phase < k_phase_names.size(); ++phase) row.push_back(dynamics.seconds()[phase]);
+  row.insert(row.end(), {seconds_, now.waited});
+  scalars_.row(row);
+  if (!gauges_) return;
+  auto values = gauge_values(config_.sph.gauges, particles, dynamics.neighbors(), config_.sph.spacing);
+  values.insert(values.begin(), now.time);
+  gauges_->row(values);
+}
+
+template <int D>
+void Output<D>::write_fields(double time, const Particles<D>& particles) {
+  const Stopwatch watch{seconds_};
+  std::vector<support::OutputField> fields;
+  for (const auto& name : config_.sph.fields) fields.push_back(field(name, particles));
+  fields_.write_points(time, field<D>("position", particles).values, fields);
+  last_fields_ = time;
+}
+
+template class Output<2>;
+template class Output<3>;
+
+}  // namespace littoral::sph

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "config.hpp"
+#include "coupling/zones.hpp"
+#include "littoral/coupler/partner.hpp"
+#include "littoral/support/series.hpp"
+#include "particles/particles.hpp"
+#include "physics/dynamics.hpp"
+
+namespace littoral::sph {
+
+/// Everything a run writes as it goes: scalars.csv and gauges.csv each window, fields when they are due.
+template <int D>
+class Output {
+ public:
+  /// folder: OUT/sph. throws IoError
+  Output(const std::string& folder, const RunConfig& config);
+
+  /// True if a field is due at `time`.
+  bool fields_due(double time) const;
+
+  struct Moment {
+    double time = 0.0;    // [s]
+    double dt = 0.0;      // of a particle step [s]
+    int substeps = 0;     // M
+    double waited = 0.0;  // wall time spent waiting for the partner so far [s]
+    coupler::Ledger ledger;
+  };
+  /// pre: copies and lists current (Dynamics::prepare)
+  void write_rows(const Moment& now, const Particles<D>& particles, const Dynamics<D>& dynamics,
+                  const Layers<D>& layers);
+  void write_fields(double time, const Particles<D>& particles);
+  /// Unless they were already written at this time.
+  void write_fields_once(double time, const Particles<D>& particles) {
+    if (time > last_fields_) write_fields(time, particles);
+  }
+
+  double seconds() const { return seconds_; }  ///< wall time spent writing so far [s]
+
+ private:
+  RunConfig config_;
+  std::array<double, D> gravity_{};
+  support::CsvSeries scalars_;
+  std::optional<support::CsvSeries> gauges_;
+  support::FieldSeries fields_;
+  double last_fields_ = 0.0;
+  double seconds_ = 0.0;
+};
+
+extern template class Output<2>;
+extern template class Output<3>;
+
+}  // namespace littoral::sph

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <array>
+
+#include "littoral/support/scene.hpp"
+#include "particles/particles.hpp"
+#include "physics/eos.hpp"
+
+namespace littoral::sph {
+
+/// Fills a box with particles at lower + (i + 1/2) dx, where the scene has water at the start: V = dx^D,
+/// states from the scene's formulas, m = rho(p) V. Appends to what is there.
+template <int D>
+void fill_lattice(const std::array<double, D>& lower, const std::array<double, D>& upper, double spacing,
+                  const support::Scene& scene, const LinearEos& eos, Particles<D>& particles);
+
+extern template void fill_lattice<2>(const std::array<double, 2>&, const std::array<double, 2>&, double,
+                                     const support::Scene&, const LinearEos&, Particles<2>&);
+extern template void fill_lattice<3>(const std::array<double, 3>&, const std::array<double, 3>&, double,
+                                     const support::Scene&, const LinearEos&, Particles<3>&);
+
+}  // namespace littoral::sph

@@ -1,0 +1,90 @@
+#include "program.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+#include "config.hpp"
+#include "coupling/partner_choice.hpp"
+#include "littoral/coupler/job.hpp"
+#include "littoral/coupler/record.hpp"
+#include "littoral/error.hpp"
+#include "littoral/support/log.hpp"
+#include "littoral/support/options.hpp"
+#include "littoral/support/run_plan.hpp"
+#include "solver.hpp"
+
+namespace littoral::sph {
+namespace {
+
+constexpr const char* k_description =
+    "Smoothed particle hydrodynamics of free-surface flow, alone or with a grid partner.";
+
+void write_text(const std::string& path, const std::string& text) {
+  std::ofstream file(path);
+  file << text << std::flush;
+  if (!file) throw IoError(path + ": cannot be written (is the disk full, the folder writable?)");
+}
+
+/// The grid side of this run: the job's other program, an analytic one, a record, or nobody.
+std::unique_ptr<coupler::FvPartner> partner_of(coupler::Job& job, const support::ProgramOptions& options,
+                                               const RunConfig& config) {
+  if (!options.replay.empty()) return coupler::replayed_fv_partner(options.replay);
+  const auto plan = support::run_plan(config.scene);
+  auto partner = choose_partner(job, config.scene, config.sph.coupling, plan, config.sph.spacing);
+  if (partner && job.has_partner()) job.compare(config.scene.contract());
+  if (partner && !options.record.empty()) return coupler::recording(std::move(partner), options.record);
+  return partner;
+}
+
+template <int D>
+void run(coupler::Job& job, const support::ProgramOptions& options, const RunConfig& config,
+         const std::string& folder, support::Log& log) {
+  Solver<D> solver(config, folder, log, partner_of(job, options, config));
+  solver.run();
+}
+
+/// What --check can find without placing particles.
+void check(const RunConfig& config) {
+  config.scene.dimension == 2 ? (void)domain_of<2>(config) : (void)domain_of<3>(config);
+}
+
+}  // namespace
+
+int run_program(coupler::Job& job, int argc, char** argv) {
+  const auto parsed = support::parse_options(argc, argv, "sph_solver", LITTORAL_VERSION, k_description);
+  const bool speaks = job.rank() == 0;
+  if (parsed.exit_status) {
+    if (speaks) (*parsed.exit_status == 0 ? std::cout : std::cerr) << parsed.text;
+    return *parsed.exit_status;
+  }
+  const auto& options = parsed.options;
+  if (options.help_config) {
+    if (speaks) std::cout << help_text();
+    return 0;
+  }
+  const RunConfig config = read_config(options.config, options.settings, options.scene_settings);
+  check(config);
+  if (options.print_config) {
+    if (speaks) std::cout << resolved_text(config);
+    return 0;
+  }
+  if (options.check) {
+    if (speaks) std::cout << options.config << ": no problem found\n";
+    return 0;
+  }
+  if (job.size() > 1)
+    throw ConfigError("sph_solver runs on one rank, not on " + std::to_string(job.size()) +
+                      "; start it with -n 1 and give it threads instead (OMP_NUM_THREADS).");
+  const std::string folder = options.out + "/sph";
+  std::error_code failure;
+  std::filesystem::create_directories(folder, failure);
+  if (failure) throw IoError(folder + ": cannot be made: " + failure.message());
+  support::Log log("sph", job.rank(), folder + "/log.txt");
+  write_text(folder + "/config.yaml", resolved_text(config));
+  config.scene.dimension == 2 ? run<2>(job, options, config, folder, log)
+                              : run<3>(job, options, config, folder, log);
+  return 0;
+}
+
+}  // namespace littoral::sph

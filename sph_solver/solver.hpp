@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "config.hpp"
+#include "coupling/window_driver.hpp"
+#include "coupling/zones.hpp"
+#include "io/output.hpp"
+#include "littoral/coupler/partner.hpp"
+#include "littoral/support/log.hpp"
+#include "particles/particles.hpp"
+#include "physics/dynamics.hpp"
+
+namespace littoral::sph {
+
+/// A run of the particle solver, alone or with a partner.
+template <int D>
+class Solver {
+ public:
+  /// Places the particles. folder: OUT/sph; partner: the grid side, or null.
+  /// throws ConfigError (no particle at all, unsuitable domain), IoError
+  Solver(const RunConfig& config, const std::string& folder, support::Log& log,
+         std::unique_ptr<coupler::FvPartner> partner);
+
+  /// To the end of the scene's time. throws StabilityError, IoError, CouplingError
+  void run();
+  /// One step of the particles from `t` to `t + dt`, without a partner and without output.
+  void step(double t, double dt) { dynamics_.step(particles_, t, dt, nullptr); }
+
+  const Particles<D>& particles() const { return particles_; }
+  const Dynamics<D>& dynamics() const { return dynamics_; }
+
+ private:
+  void begin();
+  coupler::Agreement agree();
+  void advance(const coupler::Agreement& agreement);
+  void write(const coupler::Agreement& agreement);
+  StepHooks<D>* hooks();
+  typename Output<D>::Moment moment(const coupler::Window& window) const;
+  void write_summary(double wall_time);
+  std::string describe() const;
+
+  RunConfig config_;
+  std::string folder_;
+  support::Log& log_;
+  std::unique_ptr<coupler::FvPartner> partner_;
+  Particles<D> particles_;
+  Dynamics<D> dynamics_;
+  std::optional<WindowDriver<D>> driver_;  // of the coupling, with a partner only
+  Layers<D> layers_;
+  Output<D> output_;
+  double time_ = 0.0;        // [s]
+  std::int64_t window_ = 0;  // of the next window
+  std::string stopped_because_;
+};
+
+extern template class Solver<2>;
+extern template class Solver<3>;
+
+}  // namespace littoral::sph
