@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <limits>
 #include <sstream>
 
 #include "littoral/error.hpp"
@@ -133,6 +134,34 @@ void FaceElements<D>::integrate(const Exterior& fv, const LinearEos& eos, double
   for (std::size_t e = 0; e < size(); ++e) {  // in order: the same sums on any number of threads
     mass_[e] += gain[e];
     flux_ += gain[e];
+  }
+}
+
+template <int D>
+void FaceElements<D>::level_outflow(double particle_mass) {
+  for (const Face& face : faces_) {
+    std::size_t count = 1;
+    for (std::size_t n : face.n) count *= n;
+    for (std::size_t e = face.first; e < face.first + count; ++e) {
+      while (speed_[e] <= 0.0 && mass(e) >= 0.5 * particle_mass) {
+        std::size_t nearest = size();
+        double s_min = std::numeric_limits<double>::infinity();
+        for (std::size_t f = face.first; f < face.first + count; ++f) {
+          if (mass(f) > -0.5 * particle_mass || mass(e) - mass(f) < 1.5 * particle_mass) continue;
+          double s = 0.0;
+          for (std::size_t d = 0; d < D; ++d)
+            s += (elements_[f].centre[d] - elements_[e].centre[d]) *
+                 (elements_[f].centre[d] - elements_[e].centre[d]);
+          if (s < s_min) {
+            s_min = s;
+            nearest = f;
+          }
+        }
+        if (nearest == size()) break;
+        credit(e, -particle_mass);
+        credit(nearest, particle_mass);
+      }
+    }
   }
 }
 

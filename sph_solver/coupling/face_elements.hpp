@@ -38,8 +38,11 @@ class FaceElements {
   /// comm: local. throws CouplingError: no donors at an element in a scene without free surface
   void integrate(const Exterior& fv, const LinearEos& eos, double time, double dt);
 
-  double mass(std::size_t e) const { return mass_[e].value(); }   // [kg]
-  void credit(std::size_t e, double mass) { mass_[e] += mass; }   // [kg]
+  double mass(std::size_t e) const { return mass_[e].value(); }  // [kg]
+  void credit(std::size_t e, double mass) { mass_[e] += mass; }  // [kg]
+  /// Where water flows out, a particle may leave through the element beside the one that its mass was counted
+  /// on: a whole particle's surplus goes to the nearest element of the face that is owed one.
+  void level_outflow(double particle_mass);
   double inflow_speed(std::size_t e) const { return speed_[e]; }  // [m/s] u.n of the last integration
   std::int64_t& hint(std::size_t e) const { return hint_[e]; }
   double total_mass() const;                     // [kg] on all elements

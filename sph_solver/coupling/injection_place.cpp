@@ -20,6 +20,22 @@ bool in_water(const Point<D>& x, const Exterior& fv, double time, std::int64_t& 
 }  // namespace
 
 template <int D>
+void PresentParticles<D>::add(const Point<D>& x) {
+  const auto put = [this](const Point<D>& image) {
+    for (std::size_t d = 0; d < D; ++d) x_[d].push_back(image[d]);
+  };
+  put(x);
+  for (std::size_t d = 0; d < D; ++d) {
+    if (!box_.periodic[d]) continue;
+    const double length = box_.upper[d] - box_.lower[d];
+    Point<D> image = x;
+    if (x[d] < box_.lower[d] + reach_) image[d] += length;
+    if (x[d] > box_.upper[d] - reach_) image[d] -= length;
+    if (image[d] != x[d]) put(image);  // an edge's image is missed: a room too large by chance, no more
+  }
+}
+
+template <int D>
 void PresentParticles<D>::sort() {
   n_sorted_ = x_[0].size();
   if (n_sorted_ > 0) grid_.bin(x_, n_sorted_, reach_);
@@ -38,24 +54,33 @@ double PresentParticles<D>::room(const Point<D>& x) const {
       for (std::size_t k = begin; k < end; ++k) look(static_cast<std::size_t>(grid_.order()[k]));
     });
   for (std::size_t k = n_sorted_; k < x_[0].size(); ++k) look(k);
-  return std::sqrt(s_min);
+  double room = std::sqrt(s_min);
+  for (std::size_t d = 0; d < D; ++d)
+    if (!box_.periodic[d])
+      for (std::size_t side = 0; side < 2; ++side)
+        if (!box_.open[d][side])
+          room = std::min(room, 2.0 * std::fabs(x[d] - (side == 0 ? box_.lower[d] : box_.upper[d])));
+  return room;
 }
 
 template <int D>
-Point<D> injection_place(const FaceElement<D>& element, double excess_depth, double spacing,
-                         const PresentParticles<D>& present, const Exterior& fv, double time,
-                         std::int64_t& hint) {
+InjectionPlace<D> injection_place(const FaceElement<D>& element, double excess_depth, double spacing,
+                                  const PresentParticles<D>& present, const Exterior& fv, double time,
+                                  std::int64_t& hint) {
+  InjectionPlace<D> best;
+  const auto consider = [&](const Point<D>& x) {
+    const double room = present.room(x);
+    if (room > best.room * (1.0 + 1e-12) && in_water<D>(x, fv, time, hint)) best = {x, room};
+  };
   Point<D> centre = element.centre;
   centre[element.axis] += element.inward * (0.5 * spacing + std::clamp(excess_depth, 0.0, 0.5 * spacing));
-  const bool centre_wet = in_water<D>(centre, fv, time, hint);
-  if (centre_wet && present.room(centre) >= k_free * spacing) return centre;
+  consider(centre);
+  if (best.room >= k_free * spacing) return best;
 
   // Depths from a quarter to one and a quarter spacing, and half an element to either side.
   constexpr double depths[] = {0.5, 0.75, 1.0, 0.25, 1.25};
   constexpr int sides = D == 2 ? 3 : 9;
   constexpr double offsets[] = {0.0, -0.5, 0.5};
-  Point<D> best = centre;
-  double best_room = centre_wet ? present.room(centre) : -1.0;
   for (double depth : depths)
     for (int k = 0; k < sides; ++k) {
       Point<D> x = element.centre;
@@ -66,21 +91,18 @@ Point<D> injection_place(const FaceElement<D>& element, double excess_depth, dou
         x[d] += 2.0 * offsets[rest % 3] * element.half[d];
         rest /= 3;
       }
-      if (!in_water<D>(x, fv, time, hint)) continue;
-      const double r = present.room(x);
-      if (r > best_room * (1.0 + 1e-12)) {
-        best_room = r;
-        best = x;
-      }
+      consider(x);
     }
   return best;
 }
 
 template class PresentParticles<2>;
 template class PresentParticles<3>;
-template Point<2> injection_place<2>(const FaceElement<2>&, double, double, const PresentParticles<2>&,
-                                     const Exterior&, double, std::int64_t&);
-template Point<3> injection_place<3>(const FaceElement<3>&, double, double, const PresentParticles<3>&,
-                                     const Exterior&, double, std::int64_t&);
+template InjectionPlace<2> injection_place<2>(const FaceElement<2>&, double, double,
+                                              const PresentParticles<2>&, const Exterior&, double,
+                                              std::int64_t&);
+template InjectionPlace<3> injection_place<3>(const FaceElement<3>&, double, double,
+                                              const PresentParticles<3>&, const Exterior&, double,
+                                              std::int64_t&);
 
 }  // namespace littoral::sph

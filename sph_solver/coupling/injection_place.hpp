@@ -11,33 +11,41 @@
 
 namespace littoral::sph {
 
-/// Positions near the outer faces: those of the particles, then those of the ones just born.
+/// Positions near the outer faces of a region box: those of the particles, then those of the ones just born,
+/// and the images of both beyond periodic sides.
 template <int D>
 class PresentParticles {
  public:
-  explicit PresentParticles(double reach) : reach_(reach) {}
-  void add(const Point<D>& x) {
-    for (std::size_t d = 0; d < D; ++d) x_[d].push_back(x[d]);
-  }
+  PresentParticles(const RegionBox<D>& box, double reach) : box_(box), reach_(reach) {}
+  void add(const Point<D>& x);
   /// Closes the first group; what is added later is searched one by one.
   void sort();
-  /// Distance from x to the nearest, `reach` if none is nearer.
+  /// Distance from x to the nearest, or to the image that a particle at x would have beyond a closed side;
+  /// `reach` if none is nearer.
   double room(const Point<D>& x) const;
 
  private:
+  RegionBox<D> box_;
   double reach_;
   std::array<std::vector<double>, D> x_;
   CellGrid<D> grid_;
   std::size_t n_sorted_ = 0;
 };
 
+/// A place for a new particle and the distance to the nearest one there; room < 0: no place in the water.
+template <int D>
+struct InjectionPlace {
+  Point<D> x{};
+  double room = -1.0;  // [m]
+};
+
 /// Where the particle of an element appears: in front of the element's centre, half a spacing inside, plus
 /// the depth that the mass beyond m0 has already travelled; so a steady inflow makes rows of even spacing
 /// although particles appear only at the ends of steps. If a particle is there already, the emptiest of a few
-/// places around. Places above FV's surface are avoided.
+/// places around. Places above FV's surface are none.
 template <int D>
-Point<D> injection_place(const FaceElement<D>& element, double excess_depth, double spacing,
-                         const PresentParticles<D>& present, const Exterior& fv, double time,
-                         std::int64_t& hint);
+InjectionPlace<D> injection_place(const FaceElement<D>& element, double excess_depth, double spacing,
+                                  const PresentParticles<D>& present, const Exterior& fv, double time,
+                                  std::int64_t& hint);
 
 }  // namespace littoral::sph

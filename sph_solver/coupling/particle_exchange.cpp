@@ -12,6 +12,12 @@ namespace littoral::sph {
 
 namespace {
 
+// Distance to the nearest particle that a new one must have [spacings]. Where water flows in, a place soon
+// empties: the mass waits, up to that of a second particle. Where it flows out there is only a particle due
+// because others left early; it comes where there is a void, else the mass waits for one.
+constexpr double k_room_inflow = 0.6;
+constexpr double k_room_outflow = 0.9;
+
 double power(double base, int exponent) {
   double product = 1.0;
   for (int k = 0; k < exponent; ++k) product *= base;
@@ -109,19 +115,26 @@ bool ParticleExchange<D>::inject(Particles<D>& particles, const Exterior& fv, do
   if (due.empty()) return false;
   const std::int64_t before = counts_.injected;
 
-  PresentParticles<D> present(2.0 * spacing_);
-  for (std::size_t i : near_faces(particles, layers_, 4.0 * spacing_)) present.add(at<D>(particles.x, i));
-  present.sort();
+  std::vector<PresentParticles<D>> present;
+  for (const auto& box : layers_.boxes()) present.emplace_back(box, 2.0 * spacing_);
+  for (std::size_t i : near_faces(particles, layers_, 4.0 * spacing_))
+    for (auto& around : present) around.add(at<D>(particles.x, i));
+  for (auto& around : present) around.sort();
   for (std::size_t e : due) {
+    auto& around = present[elements_[e].box];
     while (elements_.mass(e) >= m0_) {
       // the mass beyond m0 entered after the particle was due: it has travelled so far since
       const double excess_depth = (elements_.mass(e) - m0_) / (eos_.density(eos_.p0) * elements_[e].area);
+      const auto place =
+          injection_place<D>(elements_[e], excess_depth, spacing_, around, fv, time, elements_.hint(e));
+      const bool inflow = elements_.inflow_speed(e) > 0.0;
+      const bool pressed = inflow && elements_.mass(e) >= 2.0 * m0_;
+      if (place.room < (inflow ? k_room_inflow : k_room_outflow) * spacing_ && !pressed) break;
+      if (place.room < 0.0) break;  // FV's water is not there yet
       NewParticle<D> particle;
-      particle.x =
-          injection_place<D>(elements_[e], excess_depth, spacing_, present, fv, time, elements_.hint(e));
+      particle.x = place.x;
       const auto state = fv.at(to_vec3<D>(particle.x), time, elements_.hint(e));
       if (!state) {
-        if (fv.with_phi()) break;  // FV's water is not there yet: the mass waits on the element
         const auto x = to_vec3<D>(particle.x);
         std::ostringstream text;
         text << "t = " << time << " s: no donor cells where a particle must be injected, (" << x[0] << ", "
@@ -135,7 +148,7 @@ bool ParticleExchange<D>::inject(Particles<D>& particles, const Exterior& fv, do
       particle.zone = layers_.zone(layers_.excess(particle.x));
       particles.append(particle);
       particles.rho.back() = eos_.density(state->p);
-      present.add(particle.x);
+      around.add(particle.x);
       elements_.credit(e, -m0_);
       injected_ += m0_;
       ++counts_.injected;
@@ -153,6 +166,7 @@ bool ParticleExchange<D>::step(Particles<D>& particles, const Exterior& fv, doub
   find_crossed(particles, removal_ == Removal::crossing ? 0.0 : spacing_);
   if (removal_ == Removal::nearest) find_nearest(particles);
   if (n_doomed_ > 0) particles.remove(doomed_);
+  elements_.level_outflow(m0_);
   return inject(particles, fv, time + dt) || n_doomed_ > 0;
 }
 

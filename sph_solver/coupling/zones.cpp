@@ -68,6 +68,8 @@ Layers<D> Layers<D>::from_scene(const support::Scene& scene, double kernel_radiu
       const char axis = "xyz"[space_axis<D>(d)];
       box.open[d][0] = box.lower[d] > domain_lower[d] + tolerance;
       box.open[d][1] = box.upper[d] < domain_upper[d] - tolerance;
+      box.periodic[d] = !box.open[d][0] && !box.open[d][1] &&
+                        scene.domain.sides[space_axis<D>(d)][0] == support::Scene::Side::periodic;
       box.lower[d] = std::max(box.lower[d], domain_lower[d]);
       box.upper[d] = std::min(box.upper[d], domain_upper[d]);
       if (box.upper[d] - box.lower[d] <= tolerance)

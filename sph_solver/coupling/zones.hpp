@@ -18,6 +18,7 @@ struct RegionBox {
   Point<D> lower{}, upper{};                  // [m] nominal faces, cut to the domain
   Point<D> outer_lower{}, outer_upper{};      // [m] the nominal faces, or the outer ones where open
   std::array<std::array<bool, 2>, D> open{};  // [direction][lower, upper]
+  std::array<bool, D> periodic{};             // it repeats itself in this direction
 
   /// Outward distance beyond the nominal open faces [m]; negative or zero inside. At an edge or corner of
   /// several open faces the largest counts, so that the layers are nested boxes.

@@ -89,13 +89,36 @@ TEST(ParticleExchangeTest, InjectsAtReferenceMassHalfASpacingInside) {
 
 TEST(ParticleExchangeTest, AvoidsAnOccupiedPlace) {
   const auto layers = test::unit_box<2>({{{true, false}, {false, false}}}, 0.25, 0.25);
+  ParticleExchange<2> exchange(layers, k_eos, 0.5, Removal::crossing);
+  Particles<2> particles;
+  particles.append({{-0.25, 0.25}, {0.0, 0.0}, 0.25, 250.0, 0.0, Zone::driven});
+  exchange.start(particles);
+  exchange.step(particles, stream({1.0, 0.0, 0.0}), 0.0, 0.5);
+  ASSERT_EQ(particles.n_owned, 3u);
+  EXPECT_GE(least_spacing(particles), 0.6 * 0.5);
+}
+
+TEST(ParticleExchangeTest, WaitsUntilThereIsRoom) {
+  const auto layers = test::unit_box<2>({{{true, false}, {false, false}}}, 0.25, 0.25);
   ParticleExchange<2> exchange(layers, k_eos, 1.0, Removal::crossing);
   Particles<2> particles;
-  particles.append({{0.0, 0.5}, {0.0, 0.0}, 1.0, 1000.0, 0.0, Zone::driven});
+  for (double x : {-0.25, 0.25}) particles.append({{x, 0.5}, {0.0, 0.0}, 1.0, 1000.0, 0.0, Zone::driven});
   exchange.start(particles);
-  exchange.step(particles, stream({1.0, 0.0, 0.0}), 0.0, 1.0);
-  ASSERT_EQ(particles.n_owned, 2u);
-  EXPECT_GT(least_spacing(particles), 0.5);
+  EXPECT_FALSE(exchange.step(particles, stream({1.0, 0.0, 0.0}), 0.0, 1.2));
+  EXPECT_DOUBLE_EQ(exchange.elements().mass(0), 1200.0);
+  EXPECT_TRUE(exchange.step(particles, stream({1.0, 0.0, 0.0}), 1.2, 1.0)) << "not for more than 2 m0";
+}
+
+TEST(ParticleExchangeTest, OutflowDoesNotInjectWhatLeftBesideItsElement) {
+  const auto layers = test::unit_box<2>({{{true, false}, {false, false}}}, 0.25, 0.25);
+  ParticleExchange<2> exchange(layers, k_eos, 0.25, Removal::crossing);
+  Particles<2> particles;  // both leave through the lowest element; the next one's flux counted one of them
+  for (double z : {0.1, 0.2}) particles.append({{-0.51, z}, {0.0, 0.0}, 0.0625, 62.5, 0.0, Zone::driven});
+  exchange.start(particles);
+  exchange.step(particles, stream({-1.0, 0.0, 0.0}), 0.0, 0.25);
+  EXPECT_EQ(particles.n_owned, 0u);
+  EXPECT_NEAR(exchange.elements().mass(0), 0.0, 1e-12);
+  EXPECT_EQ(exchange.counts().injected, 0);
 }
 
 TEST(ParticleExchangeTest, CreditsTheElementThatAParticleCrossed) {
