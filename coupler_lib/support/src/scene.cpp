@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "littoral/error.hpp"
+#include "littoral/support/run_plan.hpp"
 #include "scene_checks.hpp"
 
 namespace littoral::support {
@@ -174,6 +175,7 @@ coupler::Contract Scene::contract() const {
   contract.set("fluid.viscosity", fluid.viscosity);
   vector("gravity", gravity);
   contract.set("free surface", has_free_surface() ? "yes" : "no");
+  contract.set("phi crosses", level_set_crosses(*this) ? "yes" : "no");
   vector("domain.lower", domain.lower);
   vector("domain.upper", domain.upper);
   for (std::size_t d = 0; d < 3; ++d)

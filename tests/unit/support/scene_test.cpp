@@ -177,8 +177,8 @@ TEST_F(SceneTest, ContractAsksOnlyForWhatTheExchangeNeeds) {
   for (const auto& mismatch : read().contract().compare({})) required += mismatch.key + " ";
   EXPECT_EQ(required,
             "dimension axes sign of phi fluid.density fluid.sound_speed fluid.reference_pressure "
-            "fluid.viscosity gravity.x gravity.y gravity.z free surface regions regions[0].lower.x "
-            "regions[0].lower.y regions[0].lower.z regions[0].upper.x regions[0].upper.y "
+            "fluid.viscosity gravity.x gravity.y gravity.z free surface phi crosses regions "
+            "regions[0].lower.x regions[0].lower.y regions[0].lower.z regions[0].upper.x regions[0].upper.y "
             "regions[0].upper.z coupling.kind coupling.schedule coupling.passes coupling.substeps "
             "time.end ");
 }
