@@ -65,6 +65,7 @@ def collect(out, scene, job):
                "programs": {p: read_json(out / p / "summary.json") for p in scene.programs}}
     summary["regions"] = scene.regions()
     summary["density"] = scene.value("fluid.density", 1000.0)
+    summary["sound_speed"] = scene.value("fluid.sound_speed", 0.0)
     summary["gravity"] = scene.vector("gravity")
     reference = scene.reference()
     if reference:

@@ -38,15 +38,14 @@ class StandingWaveRun:
         self.energy = self.kinetic + self.potential
 
     def rest(self, potential):
-        """Potential energy of the flat surface: through its values at the moments when the antinode is level.
+        """Potential energy of the water at rest: what the measured elevation does not explain, meaned over a period.
 
         Of the thousand joules that the water's weight holds the wave has one. A settling of 1e-4 of the depth, as
         particles do when they leave their lattice, would hide it if the start were taken as the level for good.
         """
-        level = signals.zero_crossings(self.gauge_time, self.elevation - self.level())
-        times = np.concatenate([[self.time[0]], level[level > self.time[0] + 0.25 * self.wave.period0]])
-        values = np.interp(times, self.time, potential)
-        return np.interp(self.time, times, values)
+        eta = np.interp(self.time, self.gauge_time, self.elevation - self.level())
+        raised = 0.25 * self.wave.rho * self.wave.g * self.length * eta**2
+        return signals.moving_mean(self.time, potential - raised, self.wave.period0)
 
     def period(self):
         return signals.mean_period(self.gauge_time, self.elevation - self.level())

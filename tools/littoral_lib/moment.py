@@ -72,12 +72,12 @@ class Moments:
         return np.array([s.time for s in next(iter(self.series.values()))])
 
     def at(self, time):
-        """{program: Part} at the output closest to `time`."""
-        parts = {}
-        for program, series in self.series.items():
-            snapshot = min(series, key=lambda s: abs(s.time - time))
-            parts[program] = Part(snapshot)
-        return parts
+        """{program: Part} at the output closest to `time`, of all programs at the same moment."""
+        times = [[snapshot.time for snapshot in series] for series in self.series.values()]
+        common = [t for t in times[0] if all(min(abs(t - o) for o in other) < 1e-9 * (1 + t) for other in times[1:])]
+        chosen = min(common or times[0], key=lambda t: abs(t - time))
+        return {program: Part(min(series, key=lambda s: abs(s.time - chosen)))
+                for program, series in self.series.items()}
 
     def most_lively(self):
         """Time of the output with the fastest water, the first one left out where there are more."""

@@ -4,7 +4,7 @@ import pathlib
 
 import numpy as np
 
-from . import compare, tables
+from . import compare, signals, tables
 from .collect import read_json
 from .errors import UserError
 from .moment import BLANKED, Moments
@@ -69,15 +69,22 @@ class Picture:
     def energy(self, axes):
         wave = self.wave
         t = np.linspace(1e-6, wave.time[-1], 300)
-        period, start = wave.wave.period0, wave.energy[0]
+        period, start = wave.wave.period0, wave.kinetic[0]  # flat at the start
         exact_energy = wave.wave.energy(np.append(0.0, t), wave.length)
         exact_kinetic = wave.wave.kinetic_energy(t, wave.length)
         axes.plot(np.append(0, t) / period, exact_energy / exact_energy[0], color="#888888", lw=3, label="exact")
         axes.plot(t / period, exact_kinetic / exact_energy[0], color="#cccccc", lw=2.5)
-        axes.plot(wave.time / period, wave.energy / start, color=COLOURS["all"], lw=1, label="total")
+        axes.plot(wave.time / period, wave.energy / start, color="#dddddd", lw=0.7)
+        axes.plot(wave.time / period, self.without_ringing(wave.energy) / start, color=COLOURS["all"], lw=1,
+                  label="total")
         axes.plot(wave.time / period, wave.kinetic / start, color=COLOURS["fv"], lw=1, label="kinetic")
         axes.set(xlabel="time / inviscid period", ylabel="energy / initial energy", ylim=(0, 1.3))
         axes.legend(loc="upper right", ncol=3)
+
+    def without_ringing(self, energy):
+        """Mean over one period 4H/c of the column's gravest acoustic mode, in which its weight bobs up and down."""
+        period = 4 * self.wave.wave.depth / self.summary["sound_speed"]
+        return signals.moving_mean(self.wave.time, energy, period)
 
     def history(self, axes):
         scalars = self.scalars()
@@ -109,7 +116,7 @@ class Picture:
                  + ", ".join(["particles (dots)"] * ("sph" in parts) + ["cells"] * ("fv" in parts)
                              + ["nominal faces of the particles' region (dashed)"] * bool(self.regions)))
         axes.title.set_fontsize(9)
-        figure.colorbar(drawn, ax=axes, label="|u| [m/s]", fraction=0.03, pad=0.01)
+        figure.colorbar(drawn, cax=axes.inset_axes([1.02, 0, 0.02, 1]), label="|u| [m/s]")
 
     def profile(self, axes, time, quantity, x_line, label):
         """Values on the vertical line x = x_line, of particles within half a spacing and of the nearest column."""
@@ -147,9 +154,9 @@ def middle(part):
 
 
 def dot_size(x, axes):
-    """Area in points^2 of dots that nearly touch at the width of the axes."""
+    """Area in points^2 of dots with room between them at the width of the axes."""
     width = axes.get_window_extent().width * 72 / axes.figure.dpi
-    return (0.8 * width * spacing(x) / max(np.ptp(x[:, 0]), np.ptp(x[:, 2]))) ** 2
+    return (0.6 * width * spacing(x) / max(np.ptp(x[:, 0]), np.ptp(x[:, 2]))) ** 2
 
 
 def overview(picture, time, path):

@@ -42,6 +42,13 @@ def peaks(time, signal, window):
     return np.array(times), np.array(values)
 
 
+def moving_mean(time, signal, width):
+    """Mean over +-width/2 about each time, over what there is of it at the ends."""
+    sums = np.concatenate([[0.0], np.cumsum(0.5 * (signal[1:] + signal[:-1]) * np.diff(time))])
+    left, right = np.maximum(time - width / 2, time[0]), np.minimum(time + width / 2, time[-1])
+    return (np.interp(right, time, sums) - np.interp(left, time, sums)) / (right - left)
+
+
 def kept_per(time, values, interval):
     """Factor by which positive values fall in one interval: a straight line through their logarithms."""
     if len(time) < 2:

@@ -26,6 +26,14 @@ class Signals(unittest.TestCase):
         times, _ = signals.peaks(self.time, np.cos(2 * np.pi * self.time / 5), 1.0)
         np.testing.assert_allclose(times, [5, 10, 15], atol=1e-6)
 
+    def test_moving_mean_keeps_lines_and_removes_its_own_period(self):
+        line = 3 + 2 * self.time
+        inner = slice(300, -300)
+        np.testing.assert_allclose(signals.moving_mean(self.time, line, 2.0)[inner], line[inner], rtol=1e-12)
+        wave = np.sin(2 * np.pi * self.time / 2.0)
+        # 200 rows a period: the trapezoidal sums are exact to the square of the step
+        np.testing.assert_allclose(signals.moving_mean(self.time, wave, 2.0)[inner], 0, atol=1e-3)
+
     def test_growth_compares_last_with_first(self):
         noise = np.sin(40 * self.time)
         self.assertAlmostEqual(signals.growth(noise), 1.0, delta=0.02)

@@ -26,7 +26,7 @@ def measure(run):
     m.elevation_error = signals.rms(history.elevation[pick] - exact) / signals.rms(exact)
     pick = slice(None, None, max(1, len(history.time) // 100))
     energy = wave.energy(history.time[pick], history.length)
-    m.energy_error = signals.rms(history.energy[pick] / history.energy[0] - energy / energy[0])
+    m.energy_error = signals.rms(history.energy[pick] / history.kinetic[0] - energy / energy[0])
     m.ledger = coupled.ledger(run) if run.sph.folder.is_dir() else float("nan")
     m.noise, m.noise_growth = acoustic_noise(run, wave.depth)
     return m
