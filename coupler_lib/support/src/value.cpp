@@ -1,8 +1,10 @@
 #include "value.hpp"
 
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include "littoral/error.hpp"
 
@@ -70,6 +72,29 @@ bool tab_in_margin(const std::string& text) {
   return false;
 }
 
+/// Hears a document and keeps nothing of it.
+struct Silent final : YAML::EventHandler {
+  using Mark = const YAML::Mark&;
+  using Text = const std::string&;
+  void OnDocumentStart(Mark) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(Mark, YAML::anchor_t) override {}
+  void OnAlias(Mark, YAML::anchor_t) override {}
+  void OnScalar(Mark, Text, YAML::anchor_t, Text) override {}
+  void OnSequenceStart(Mark, Text, YAML::anchor_t, YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(Mark, Text, YAML::anchor_t, YAML::EmitterStyle::value) override {}
+  void OnMapEnd() override {}
+};
+
+/// Whether anything follows the first document. YAML::LoadAll would tell, but at a stray comma it never ends.
+bool has_second_document(const std::string& text) {
+  std::istringstream input(text);
+  YAML::Parser parser(input);
+  Silent silent;
+  return parser.HandleNextDocument(silent) && parser.HandleNextDocument(silent);
+}
+
 [[noreturn]] void refuse(const YAML::Exception& problem, const std::string& source,
                          const std::string& input) {
   std::string text = source;
@@ -107,13 +132,12 @@ std::string Value::description() const {
 
 Value parse_yaml(const std::string& text, const std::string& source, std::vector<Problem>& problems) {
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.size() > 1)
-      throw ConfigError(source + ": holds " + std::to_string(documents.size()) +
-                        " documents separated by '---'; expected one.");
-    if (documents.empty()) return {};
+    if (has_second_document(text))
+      throw ConfigError(source +
+                        ": holds several documents, separated by '---' or by a comma that belongs to no "
+                        "list; expected one.");
     Converter converter{source, nullptr, problems};
-    return converter.convert(documents[0], {source, 0}, "", 0);
+    return converter.convert(YAML::Load(text), {source, 0}, "", 0);
   } catch (const YAML::Exception& problem) {
     refuse(problem, source, text);
   }

@@ -48,7 +48,9 @@ TEST(DocumentTest, LineEndsOfOtherSystems) {
 }
 
 TEST(DocumentTest, OneDocumentOnly) {
-  EXPECT_CONTAINS(refusal("a: 1\n---\nb: 2\n"), "2 documents separated by '---'");
+  EXPECT_CONTAINS(refusal("a: 1\n---\nb: 2\n"), "several documents, separated by '---'");
+  for (const char* stray : {",a: 1\n", "\"a\" , b\n"})
+    EXPECT_CONTAINS(refusal(stray), "a comma that belongs to no list");
 }
 
 TEST(DocumentTest, EndlessAndDeepNestingEnd) {
