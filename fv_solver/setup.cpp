@@ -4,19 +4,12 @@
 
 #include "dual_time/plain.hpp"
 #include "grid/box.hpp"
+#include "grid/space.hpp"
 #include "implicit/multigrid_solver.hpp"
 #include "littoral/error.hpp"
 
 namespace littoral::fv {
 namespace {
-
-template <int D>
-coupler::Vec3 in_space(const std::array<double, D>& x) {
-  if constexpr (D == 2)
-    return {x[0], 0.0, x[1]};
-  else
-    return {x[0], x[1], x[2]};
-}
 
 template <int D>
 Fluid<D> fluid_of(const support::Scene& scene) {
@@ -25,7 +18,7 @@ Fluid<D> fluid_of(const support::Scene& scene) {
   fluid.reference_pressure = scene.fluid.reference_pressure;
   fluid.viscosity = scene.fluid.viscosity;
   fluid.inverse_c2 = 1.0 / (scene.fluid.sound_speed * scene.fluid.sound_speed);  // 0 where c is infinite
-  for (std::size_t k = 0; k < D; ++k) fluid.gravity[k] = scene.gravity[D == 2 && k == 1 ? 2 : k];
+  for (std::size_t k = 0; k < D; ++k) fluid.gravity[k] = scene.gravity[axis_in_space<D>(k)];
   return fluid;
 }
 
@@ -65,26 +58,26 @@ Stepper<D> make_stepper(const FvConfig& config, const support::Scene& scene) {
   const auto initial = scene.initial;
   stepper.initialise(
       [&initial](const std::array<double, D>& at, double t) {
-        const coupler::Vec3 x = in_space<D>(at);
+        const coupler::Vec3 x = vector_in_space<D>(at);
         PointState<D> s;
         s.p = initial.p(x[0], x[1], x[2], t);
         const coupler::Vec3 u = {initial.u(x[0], x[1], x[2], t), initial.v(x[0], x[1], x[2], t),
                                  initial.w(x[0], x[1], x[2], t)};
-        for (std::size_t k = 0; k < D; ++k) s.u[k] = u[D == 2 && k == 1 ? 2 : k];
+        for (std::size_t k = 0; k < D; ++k) s.u[k] = u[axis_in_space<D>(k)];
         return s;
       },
       0.0);
   const auto& source = config.source;
   if (source.mass || source.u || source.v || source.w)
     stepper.set_source([source](const std::array<double, D>& at, double t) {
-      const coupler::Vec3 x = in_space<D>(at);
+      const coupler::Vec3 x = vector_in_space<D>(at);
       const auto value = [&](const std::optional<support::Formula>& f) {
         return f ? (*f)(x[0], x[1], x[2], t) : 0.0;
       };
       const coupler::Vec3 force = {value(source.u), value(source.v), value(source.w)};
       Source<D> s;
       s.mass = value(source.mass);
-      for (std::size_t k = 0; k < D; ++k) s.momentum[k] = force[D == 2 && k == 1 ? 2 : k];
+      for (std::size_t k = 0; k < D; ++k) s.momentum[k] = force[axis_in_space<D>(k)];
       return s;
     });
   return stepper;

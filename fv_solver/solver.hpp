@@ -39,7 +39,7 @@ class Solver {
 
   FvConfig config_;
   support::Scene scene_;
-  std::string folder_;  // OUT/fv
+  std::string folder_;   // OUT/fv
   std::string restart_;  // checkpoint to continue from, or empty
   bool restarted_;
   support::Log log_;

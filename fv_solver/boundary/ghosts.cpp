@@ -2,6 +2,7 @@
 
 #include "boundary/line.hpp"
 #include "grid/loops.hpp"
+#include "grid/space.hpp"
 #include "littoral/error.hpp"
 
 namespace littoral::fv {
@@ -48,12 +49,6 @@ void grown_box(const Block<D>& block, const Window<D>& window, std::array<int, D
 
 namespace {
 
-template <int D>
-std::array<double, 3> in_space(const std::array<double, D>& x) {
-  if constexpr (D == 2) return {x[0], 0.0, x[1]};
-  if constexpr (D == 3) return {x[0], x[1], x[2]};
-}
-
 /// Centre of the face between two cells whose ghost is the inner one's mirror image.
 template <int D>
 std::array<double, D> point_between(const Block<D>& block, std::ptrdiff_t a, std::ptrdiff_t b) {
@@ -88,10 +83,10 @@ void evaluate_windows(Block<D>& block, const Equations<D>& equations, double t) 
             at_layer);
         if (uses_u)
           for (std::size_t k = 0; k < D; ++k)
-            w.given_u[layer][k].push_back(w.velocity[k] ? w.velocity[k](in_space<D>(x), t) : 0.0);
+            w.given_u[layer][k].push_back(w.velocity[k] ? w.velocity[k](vector_in_space<D>(x), t) : 0.0);
         if (uses_p)
           w.given_p[layer].push_back(
-              w.pressure ? w.pressure(in_space<D>(x), t) - equations.fluid.hydrostatic(x) : 0.0);
+              w.pressure ? w.pressure(vector_in_space<D>(x), t) - equations.fluid.hydrostatic(x) : 0.0);
       });
     }
   }

@@ -5,9 +5,9 @@
 #include <cstdio>
 #include <limits>
 
-#include "coupling/space.hpp"
 #include "grid/loops.hpp"
 #include "grid/metrics.hpp"
+#include "grid/space.hpp"
 #include "littoral/error.hpp"
 
 namespace littoral::fv {

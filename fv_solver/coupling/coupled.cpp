@@ -7,7 +7,7 @@
 #include "boundary/ghosts.hpp"
 #include "coupling/carve.hpp"
 #include "coupling/interface_flux.hpp"
-#include "coupling/space.hpp"
+#include "grid/space.hpp"
 
 namespace littoral::fv {
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "coupling/space.hpp"
 #include "grid/donor_patch.hpp"
 #include "grid/loops.hpp"
+#include "grid/space.hpp"
 #include "littoral/coupler/donor_search.hpp"
 #include "littoral/error.hpp"
 

@@ -3,8 +3,8 @@
 #include <cstdio>
 
 #include "coupling/donors.hpp"
-#include "coupling/space.hpp"
 #include "grid/loops.hpp"
+#include "grid/space.hpp"
 #include "littoral/error.hpp"
 
 namespace littoral::fv {

@@ -5,16 +5,12 @@
 
 #include "grid/loops.hpp"
 #include "grid/metrics.hpp"
+#include "grid/space.hpp"
 #include "littoral/error.hpp"
 
 namespace littoral::fv {
 namespace {
 
-/// Direction x, y, z of direction d of a block.
-template <int D>
-std::size_t axis(std::size_t d) {
-  return D == 2 && d == 1 ? 2 : d;
-}
 const char* const k_axis_names[] = {"x", "y", "z"};
 const char* const k_side_names[] = {"lower", "upper"};
 
@@ -34,7 +30,7 @@ Condition resolve(const FaceConfig& face, const support::Scene& scene, std::size
                   const std::string& where) {
   if (face.condition != static_cast<int>(FaceConfig::Kind::by_scene))
     return static_cast<Condition>(face.condition);
-  switch (scene.domain.sides[axis<D>(d)][side]) {
+  switch (scene.domain.sides[axis_in_space<D>(d)][side]) {
     case support::Scene::Side::periodic:
       return Condition::periodic;
     case support::Scene::Side::symmetry:
@@ -59,7 +55,7 @@ Window<D> window_of(const FaceConfig& face, Condition condition, std::size_t d, 
   w.wave_speed = face.wave_speed;
   const std::array<const std::optional<support::Formula>*, 3> velocity = {&face.u, &face.v, &face.w};
   for (std::size_t k = 0; k < D; ++k) {
-    const auto& formula = *velocity[axis<D>(k)];
+    const auto& formula = *velocity[axis_in_space<D>(k)];
     if (formula)
       w.velocity[k] = [f = *formula](const std::array<double, 3>& x, double t) {
         return f(x[0], x[1], x[2], t);
@@ -74,7 +70,7 @@ Window<D> window_of(const FaceConfig& face, Condition condition, std::size_t d, 
 template <int D>
 void add_face(Block<D>& block, const BlockConfig& config, const support::Scene& scene, std::size_t d,
               std::size_t side) {
-  const std::size_t a = axis<D>(d);
+  const std::size_t a = axis_in_space<D>(d);
   const std::string face = face_name(a, side);
   const auto face_index = static_cast<int>(2 * a + side);
   std::vector<const PatchConfig*> patches;
@@ -86,11 +82,11 @@ void add_face(Block<D>& block, const BlockConfig& config, const support::Scene& 
     cuts[k] = {0, k == d ? 1 : block.extent.n[k]};
     if (k == d) continue;
     for (const PatchConfig* patch : patches) {
-      const int from = patch->from[axis<D>(k)], to = patch->to[axis<D>(k)];
+      const int from = patch->from[axis_in_space<D>(k)], to = patch->to[axis_in_space<D>(k)];
       if (from >= to || to > block.extent.n[k])
         throw ConfigError("block '" + config.name + "', patch on " + face + ": cells " +
                           std::to_string(from) + " to " + std::to_string(to) + " along " +
-                          k_axis_names[axis<D>(k)] + " do not lie within 0 to " +
+                          k_axis_names[axis_in_space<D>(k)] + " do not lie within 0 to " +
                           std::to_string(block.extent.n[k]));
       cuts[k].push_back(from);
       cuts[k].push_back(to);
@@ -111,7 +107,8 @@ void add_face(Block<D>& block, const BlockConfig& config, const support::Scene& 
       bool inside = true;
       for (std::size_t k = 0; k < D; ++k)
         if (k != d)
-          inside = inside && lower[k] >= patch->from[axis<D>(k)] && upper[k] <= patch->to[axis<D>(k)];
+          inside = inside && lower[k] >= patch->from[axis_in_space<D>(k)] &&
+                   upper[k] <= patch->to[axis_in_space<D>(k)];
       if (inside) condition = &patch->condition;
     }
     const std::string where = "block '" + config.name + "', faces." + face;
@@ -146,7 +143,7 @@ Block<D> build_block(const BlockConfig& config, const support::Scene& scene) {
   std::array<int, D> cells;
   std::array<bool, D> periodic;
   for (std::size_t d = 0; d < D; ++d) {
-    const std::size_t a = axis<D>(d);
+    const std::size_t a = axis_in_space<D>(d);
     cells[d] = config.cells[a];
     if (!(config.lower[a] < config.upper[a]))
       throw ConfigError("block '" + config.name + "': upper is not above lower along " + k_axis_names[a]);
@@ -171,13 +168,13 @@ Block<D> build_block(const BlockConfig& config, const support::Scene& scene) {
   Block<D> block = make_block<D>(config.name, cells, periodic, [&](const std::array<int, D>& index) {
     std::array<double, 3> box = config.lower;
     for (std::size_t d = 0; d < D; ++d) {
-      const std::size_t a = axis<D>(d);
+      const std::size_t a = axis_in_space<D>(d);
       const double s = stretched(config.stretching[a], index[d], cells[d]);
       box[a] = config.lower[a] + (config.upper[a] - config.lower[a]) * s;
     }
     std::array<double, D> x;
     for (std::size_t d = 0; d < D; ++d) {
-      const std::size_t a = axis<D>(d);
+      const std::size_t a = axis_in_space<D>(d);
       x[d] = config.mapping[a] ? (*config.mapping[a])(box[0], box[1], box[2], 0.0) : box[a];
     }
     return x;

@@ -7,20 +7,11 @@
 #include "boundary/boundary_flux.hpp"
 #include "boundary/line.hpp"
 #include "grid/loops.hpp"
+#include "grid/space.hpp"
 #include "physics/flux_rows.hpp"
 
 namespace littoral::fv {
-namespace {
-
-template <int D>
-coupler::Vec3 in_space(const std::array<double, D>& x) {
-  if constexpr (D == 2)
-    return {x[0], 0.0, x[1]};
-  else
-    return {x[0], x[1], x[2]};
-}
-
-}  // namespace
+namespace {}  // namespace
 
 template <int D>
 Field outside_share(const Block<D>& block, const std::vector<coupler::Box>& regions) {
@@ -44,7 +35,7 @@ Field outside_share(const Block<D>& block, const std::vector<coupler::Box>& regi
     for (const coupler::Box& box : regions) {
       double part = 1.0;
       for (std::size_t k = 0; k < D; ++k) {
-        const std::size_t a = D == 2 && k == 1 ? 2 : k;
+        const std::size_t a = axis_in_space<D>(k);
         const double overlap = std::min(high[k], box.upper[a]) - std::max(low[k], box.lower[a]);
         part *= std::max(0.0, overlap) / (high[k] - low[k]);
       }
@@ -112,7 +103,8 @@ WallForce wall_force(const std::vector<Block<D>>& blocks, const Equations<D>& eq
           push[k] = outward * push[k] + p * area;
           weight[k] = reference * area;
         }
-        const coupler::Vec3 f = in_space<D>(push), h = in_space<D>(weight), at = in_space<D>(x);
+        const coupler::Vec3 f = vector_in_space<D>(push), h = vector_in_space<D>(weight),
+                            at = vector_in_space<D>(x);
         for (std::size_t k = 0; k < 3; ++k) {
           const std::size_t l = (k + 1) % 3, m = (k + 2) % 3;
           force.dynamic[k] += f[k];
