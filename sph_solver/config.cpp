@@ -14,6 +14,8 @@ const std::vector<std::pair<std::string, Reconstruction>> k_reconstructions = {
     {"unlimited", Reconstruction::unlimited},
     {"minmod", Reconstruction::minmod},
     {"van_leer", Reconstruction::van_leer}};
+const std::vector<std::pair<std::string, RiemannSolver>> k_riemann_solvers = {
+    {"linearised", RiemannSolver::linearised}, {"low_dissipation", RiemannSolver::low_dissipation}};
 const std::vector<std::pair<std::string, GaugeConfig::Kind>> k_gauges = {
     {"point", GaugeConfig::Kind::point}, {"elevation", GaugeConfig::Kind::elevation}};
 const std::vector<std::pair<std::string, Config::Precision>> k_precisions = {
@@ -35,6 +37,9 @@ void Config::bind(support::Binder& b) {
       .doc("Radius R of the kernel in spacings; auto: 4 in 2-D, 2.7 in 3-D.");
   b.choice("reconstruction", reconstruction, k_reconstructions)
       .doc("States of the Riemann problem between two particles: how their gradients are used.");
+  b.choice("riemann", riemann, k_riemann_solvers)
+      .doc(
+          "linearised: eq. (12) of Di Mascio et al. 2021; low_dissipation: damps sound, and vortices, less.");
   b.section("shifting", "Keeps the particles evenly spread.", [&] {
     b.key("enabled", shifting).doc("Move particles towards voids, along the surface only where it is near.");
   });
@@ -121,6 +126,7 @@ Numerics<D> numerics_of(const RunConfig& config) {
   numerics.kernel_radius = sph.kernel_radius.value_or(D == 2 ? 4.0 : 2.7) * sph.spacing;
   numerics.skin = sph.skin * sph.spacing;
   numerics.reconstruction = sph.reconstruction;
+  numerics.riemann = sph.riemann;
   numerics.shifting = sph.shifting;
   numerics.reference_velocity =
       scene.reference_velocity > 0.0 ? scene.reference_velocity : 0.1 * scene.fluid.sound_speed;

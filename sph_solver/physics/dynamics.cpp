@@ -89,7 +89,8 @@ void Dynamics<D>::right_hand_side(Particles<D>& particles) {
   }
   {
     const PhaseSeconds::Scope scope(seconds_, Phase::fluxes);
-    riemann_fluxes(particles, neighbors_, gradients_, numerics_.eos, numerics_.reconstruction, rate_);
+    riemann_fluxes(particles, neighbors_, gradients_, numerics_.eos, numerics_.reconstruction,
+                   numerics_.riemann, rate_);
     work_.pairs += static_cast<std::int64_t>(neighbors_.n_pairs());
   }
   const PhaseSeconds::Scope scope(seconds_, Phase::terms);

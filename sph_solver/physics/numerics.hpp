@@ -18,6 +18,7 @@ struct Numerics {
   double kernel_radius = 0.0;       // R [m]
   double skin = 0.0;                // of the neighbour lists [m]
   Reconstruction reconstruction = Reconstruction::unlimited;
+  RiemannSolver riemann = RiemannSolver::linearised;
   bool shifting = true;
   double reference_velocity = 0.0;  // U of (14) [m/s]
   double cfl = 0.375;               // CFL_a of (16)

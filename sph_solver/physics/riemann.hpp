@@ -8,6 +8,22 @@ namespace littoral::sph {
 /// How the states on the two sides of the midpoint are found from those of the particles.
 enum class Reconstruction : std::uint8_t { first_order, unlimited, minmod, van_leer };
 
+/// How strongly the face pressure answers the jump of velocity.
+///   linearised       with the full impedance rho c, eq. (12)
+///   low_dissipation  with min(c, 3 (u_l - u_r)) in place of c where the sides approach, with none where they
+///   part
+///                    (Zhang, Hu & Adams 2017): sound is damped less than by (12), and so is everything else
+enum class RiemannSolver : std::uint8_t { linearised, low_dissipation };
+
+/// Speed that multiplies the jump of velocity in p_E; closing: u_l - u_r.
+template <RiemannSolver solver>
+inline double dissipation_speed(double closing, double c) {
+  if constexpr (solver == RiemannSolver::linearised) return c;
+  constexpr double k_strength = 3.0;  // Zhang, Hu & Adams 2017
+  const double speed = closing > 0.0 ? k_strength * closing : 0.0;
+  return speed < c ? speed : c;
+}
+
 /// Solution of the linearised Riemann problem (S5), along the line from i to j.
 struct FaceState {
   double u;  // velocity along the line [m/s]
@@ -16,11 +32,13 @@ struct FaceState {
 
 /// Di Mascio et al. 2021, eq. (12), after Parshikov & Medin 2002. u: velocity along the line from left to
 /// right.
-inline FaceState linearised_riemann(double rho_l, double u_l, double p_l, double rho_r, double u_r,
-                                    double p_r, double c) {
+template <RiemannSolver solver = RiemannSolver::linearised>
+inline FaceState riemann_state(double rho_l, double u_l, double p_l, double rho_r, double u_r, double p_r,
+                               double c) {
   const double weight = 1.0 / (rho_l + rho_r);
   return {weight * (rho_l * u_l + rho_r * u_r + (p_l - p_r) / c),
-          weight * (rho_r * p_l + rho_l * p_r + c * rho_l * rho_r * (u_l - u_r))};
+          weight * (rho_r * p_l + rho_l * p_r +
+                    dissipation_speed<solver>(u_l - u_r, c) * rho_l * rho_r * (u_l - u_r))};
 }
 
 /// Difference the reconstruction adds over the whole distance i to j, seen from one side (S4). `centred`: the

@@ -14,7 +14,7 @@ struct Sums {
   std::array<double, D> force;
 };
 
-template <Reconstruction variant>
+template <Reconstruction variant, RiemannSolver solver>
 Sums<2> sum_pairs(const Particles<2>& particles, const Gradients<2>& gradients, const Kernel<2>& kernel,
                   const LinearEos& eos, std::size_t i, const std::int32_t* __restrict list,
                   std::size_t count) {
@@ -63,10 +63,10 @@ Sums<2> sum_pairs(const Particles<2>& particles, const Gradients<2>& gradients, 
       u_l += 0.5 * limited_difference<variant>(du_l, du);
       u_r -= 0.5 * limited_difference<variant>(du_r, du);
     }
-    // linearised_riemann() written out: this compiler keeps the lanes only without a struct in between
-    const double weight = 1.0 / (rhoi + rhoj);
+    // riemann_state() written out: this compiler keeps the lanes only without a struct in between
+    const double weight = 1.0 / (rhoi + rhoj), speed = dissipation_speed<solver>(u_l - u_r, c);
     const double u_face = weight * (rhoi * u_l + rhoj * u_r + inv_c * (p_l - p_r));
-    const double p_face = weight * (rhoj * p_l + rhoi * p_r + c * rhoi * rhoj * (u_l - u_r));
+    const double p_face = weight * (rhoj * p_l + rhoi * p_r + speed * rhoi * rhoj * (u_l - u_r));
     volume += f * r * (u_face - un_i);
     const double force = f * (p_face - p0);
     fx += force * dx;
@@ -75,7 +75,7 @@ Sums<2> sum_pairs(const Particles<2>& particles, const Gradients<2>& gradients, 
   return {volume, {fx, fz}};
 }
 
-template <Reconstruction variant>
+template <Reconstruction variant, RiemannSolver solver>
 Sums<3> sum_pairs(const Particles<3>& particles, const Gradients<3>& gradients, const Kernel<3>& kernel,
                   const LinearEos& eos, std::size_t i, const std::int32_t* __restrict list,
                   std::size_t count) {
@@ -141,10 +141,10 @@ Sums<3> sum_pairs(const Particles<3>& particles, const Gradients<3>& gradients, 
       u_l += 0.5 * limited_difference<variant>(du_l, du);
       u_r -= 0.5 * limited_difference<variant>(du_r, du);
     }
-    // linearised_riemann() written out, as above
-    const double weight = 1.0 / (rhoi + rhoj);
+    // riemann_state() written out, as above
+    const double weight = 1.0 / (rhoi + rhoj), speed = dissipation_speed<solver>(u_l - u_r, c);
     const double u_face = weight * (rhoi * u_l + rhoj * u_r + inv_c * (p_l - p_r));
-    const double p_face = weight * (rhoj * p_l + rhoi * p_r + c * rhoi * rhoj * (u_l - u_r));
+    const double p_face = weight * (rhoj * p_l + rhoi * p_r + speed * rhoi * rhoj * (u_l - u_r));
     volume += f * r * (u_face - un_i);
     const double force = f * (p_face - p0);
     fx += force * dx;
@@ -154,7 +154,7 @@ Sums<3> sum_pairs(const Particles<3>& particles, const Gradients<3>& gradients, 
   return {volume, {fx, fy, fz}};
 }
 
-template <int D, Reconstruction variant>
+template <int D, Reconstruction variant, RiemannSolver solver>
 void loop(const Particles<D>& particles, const NeighborList<D>& neighbors, const Gradients<D>& gradients,
           const LinearEos& eos, Rate<D>& rate) {
   const Kernel<D> kernel(neighbors.kernel_radius());
@@ -163,11 +163,26 @@ void loop(const Particles<D>& particles, const NeighborList<D>& neighbors, const
   for (std::ptrdiff_t row = 0; row < n; ++row) {
     const auto i = static_cast<std::size_t>(row);
     const std::size_t begin = neighbors.start()[i];
-    const auto sums = sum_pairs<variant>(particles, gradients, kernel, eos, i, neighbors.list() + begin,
-                                         neighbors.start()[i + 1] - begin);
+    const auto sums = sum_pairs<variant, solver>(particles, gradients, kernel, eos, i,
+                                                 neighbors.list() + begin, neighbors.start()[i + 1] - begin);
     const double twice = 2.0 * particles.V[i];
     rate.volume[i] = twice * sums.volume;
     for (std::size_t d = 0; d < D; ++d) rate.acceleration[d][i] = -twice / particles.m[i] * sums.force[d];
+  }
+}
+
+template <int D, RiemannSolver solver>
+void choose(const Particles<D>& particles, const NeighborList<D>& neighbors, const Gradients<D>& gradients,
+            const LinearEos& eos, Reconstruction reconstruction, Rate<D>& rate) {
+  switch (reconstruction) {
+    case Reconstruction::first_order:
+      return loop<D, Reconstruction::first_order, solver>(particles, neighbors, gradients, eos, rate);
+    case Reconstruction::unlimited:
+      return loop<D, Reconstruction::unlimited, solver>(particles, neighbors, gradients, eos, rate);
+    case Reconstruction::minmod:
+      return loop<D, Reconstruction::minmod, solver>(particles, neighbors, gradients, eos, rate);
+    case Reconstruction::van_leer:
+      return loop<D, Reconstruction::van_leer, solver>(particles, neighbors, gradients, eos, rate);
   }
 }
 
@@ -176,23 +191,20 @@ void loop(const Particles<D>& particles, const NeighborList<D>& neighbors, const
 template <int D>
 void riemann_fluxes(const Particles<D>& particles, const NeighborList<D>& neighbors,
                     const Gradients<D>& gradients, const LinearEos& eos, Reconstruction reconstruction,
-                    Rate<D>& rate) {
+                    RiemannSolver solver, Rate<D>& rate) {
   rate.resize(particles.n_owned);
-  switch (reconstruction) {
-    case Reconstruction::first_order:
-      return loop<D, Reconstruction::first_order>(particles, neighbors, gradients, eos, rate);
-    case Reconstruction::unlimited:
-      return loop<D, Reconstruction::unlimited>(particles, neighbors, gradients, eos, rate);
-    case Reconstruction::minmod:
-      return loop<D, Reconstruction::minmod>(particles, neighbors, gradients, eos, rate);
-    case Reconstruction::van_leer:
-      return loop<D, Reconstruction::van_leer>(particles, neighbors, gradients, eos, rate);
+  switch (solver) {
+    case RiemannSolver::linearised:
+      return choose<D, RiemannSolver::linearised>(particles, neighbors, gradients, eos, reconstruction, rate);
+    case RiemannSolver::low_dissipation:
+      return choose<D, RiemannSolver::low_dissipation>(particles, neighbors, gradients, eos, reconstruction,
+                                                       rate);
   }
 }
 
 template void riemann_fluxes<2>(const Particles<2>&, const NeighborList<2>&, const Gradients<2>&,
-                                const LinearEos&, Reconstruction, Rate<2>&);
+                                const LinearEos&, Reconstruction, RiemannSolver, Rate<2>&);
 template void riemann_fluxes<3>(const Particles<3>&, const NeighborList<3>&, const Gradients<3>&,
-                                const LinearEos&, Reconstruction, Rate<3>&);
+                                const LinearEos&, Reconstruction, RiemannSolver, Rate<3>&);
 
 }  // namespace littoral::sph

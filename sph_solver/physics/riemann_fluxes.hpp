@@ -20,11 +20,11 @@ namespace littoral::sph {
 template <int D>
 void riemann_fluxes(const Particles<D>& particles, const NeighborList<D>& neighbors,
                     const Gradients<D>& gradients, const LinearEos& eos, Reconstruction reconstruction,
-                    Rate<D>& rate);
+                    RiemannSolver solver, Rate<D>& rate);
 
 extern template void riemann_fluxes<2>(const Particles<2>&, const NeighborList<2>&, const Gradients<2>&,
-                                       const LinearEos&, Reconstruction, Rate<2>&);
+                                       const LinearEos&, Reconstruction, RiemannSolver, Rate<2>&);
 extern template void riemann_fluxes<3>(const Particles<3>&, const NeighborList<3>&, const Gradients<3>&,
-                                       const LinearEos&, Reconstruction, Rate<3>&);
+                                       const LinearEos&, Reconstruction, RiemannSolver, Rate<3>&);
 
 }  // namespace littoral::sph
