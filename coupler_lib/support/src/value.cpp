@@ -72,29 +72,6 @@ bool tab_in_margin(const std::string& text) {
   return false;
 }
 
-/// Hears a document and keeps nothing of it.
-struct Silent final : YAML::EventHandler {
-  using Mark = const YAML::Mark&;
-  using Text = const std::string&;
-  void OnDocumentStart(Mark) override {}
-  void OnDocumentEnd() override {}
-  void OnNull(Mark, YAML::anchor_t) override {}
-  void OnAlias(Mark, YAML::anchor_t) override {}
-  void OnScalar(Mark, Text, YAML::anchor_t, Text) override {}
-  void OnSequenceStart(Mark, Text, YAML::anchor_t, YAML::EmitterStyle::value) override {}
-  void OnSequenceEnd() override {}
-  void OnMapStart(Mark, Text, YAML::anchor_t, YAML::EmitterStyle::value) override {}
-  void OnMapEnd() override {}
-};
-
-/// Whether anything follows the first document. YAML::LoadAll would tell, but at a stray comma it never ends.
-bool has_second_document(const std::string& text) {
-  std::istringstream input(text);
-  YAML::Parser parser(input);
-  Silent silent;
-  return parser.HandleNextDocument(silent) && parser.HandleNextDocument(silent);
-}
-
 [[noreturn]] void refuse(const YAML::Exception& problem, const std::string& source,
                          const std::string& input) {
   std::string text = source;
@@ -103,6 +80,38 @@ bool has_second_document(const std::string& text) {
   text += ": not valid YAML: " + problem.msg + ".";
   if (tab_in_margin(input)) text += " The file indents with tabs; use spaces.";
   throw ConfigError(text);
+}
+
+/// Hears the beginnings of documents and nothing else.
+struct DocumentCounter : YAML::EventHandler {
+  int count = 0;
+  int line = 0;  // of the last beginning
+  void OnDocumentStart(const YAML::Mark& mark) override {
+    ++count;
+    line = mark.line + 1;
+  }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t, const std::string&) override {}
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
+  }
+  void OnMapEnd() override {}
+};
+
+/// The line where a second document begins, 0 if there is none. yaml-cpp's own LoadAll() never returns where
+/// a comma or bracket too many follows the document: it finds empty documents there without end. So this
+/// looks for a second one and no further.
+int second_document(const std::string& text) {
+  std::istringstream input(text);
+  YAML::Parser parser(input);
+  DocumentCounter counter;
+  while (counter.count < 2 && parser.HandleNextDocument(counter)) {
+  }
+  return counter.count > 1 ? counter.line : 0;
 }
 
 }  // namespace
@@ -132,10 +141,10 @@ std::string Value::description() const {
 
 Value parse_yaml(const std::string& text, const std::string& source, std::vector<Problem>& problems) {
   try {
-    if (has_second_document(text))
-      throw ConfigError(source +
-                        ": holds several documents, separated by '---' or by a comma that belongs to no "
-                        "list; expected one.");
+    if (const int line = second_document(text))
+      throw ConfigError(
+          source + ":" + std::to_string(line) +
+          ": a second document begins here; expected one. A comma or bracket too many, or a line '---'?");
     Converter converter{source, nullptr, problems};
     return converter.convert(YAML::Load(text), {source, 0}, "", 0);
   } catch (const YAML::Exception& problem) {
@@ -145,6 +154,8 @@ Value parse_yaml(const std::string& text, const std::string& source, std::vector
 
 Value parse_setting_value(const std::string& text, const Place& place) {
   try {
+    if (second_document(text))
+      throw ConfigError(place.text + ": the value is not valid YAML: a comma or bracket too many.");
     std::vector<Problem> problems;
     Converter converter{place.text, &place, problems};
     Value value = converter.convert(YAML::Load(text), place, "", 0);

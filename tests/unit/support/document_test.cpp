@@ -48,9 +48,16 @@ TEST(DocumentTest, LineEndsOfOtherSystems) {
 }
 
 TEST(DocumentTest, OneDocumentOnly) {
-  EXPECT_CONTAINS(refusal("a: 1\n---\nb: 2\n"), "several documents, separated by '---'");
-  for (const char* stray : {",a: 1\n", "\"a\" , b\n"})
-    EXPECT_CONTAINS(refusal(stray), "a comma that belongs to no list");
+  EXPECT_CONTAINS(refusal("a: 1\n---\nb: 2\n"), "scene.yaml:2: a second document begins here; expected one.");
+  EXPECT_EQ(refusal("---\na: 1\n...\n"), "no exception");
+}
+
+TEST(DocumentTest, BracketOrCommaTooManyEnds) {  // where yaml-cpp's LoadAll() would go on for ever
+  for (const char* text : {"a: {b: 1}\n}", "a: [1, 2]]\nb: 1\n", "a: 1\n]", "}", "a: 1\n,", "a: {b: 1}}\n",
+                           ",a: 1\n", "\"a\" , b\n"})
+    EXPECT_CONTAINS(refusal(text), "scene.yaml:");
+  EXPECT_CONTAINS(message_of<ConfigError>([] { Document::from_text("a: 1", "f").set("a=[1]]"); }),
+                  "--set a=[1]]: the value is not valid YAML");
 }
 
 TEST(DocumentTest, EndlessAndDeepNestingEnd) {
