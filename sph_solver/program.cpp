@@ -6,6 +6,7 @@
 
 #include "config.hpp"
 #include "coupling/partner_choice.hpp"
+#include "io/checkpoint.hpp"
 #include "littoral/coupler/job.hpp"
 #include "littoral/coupler/record.hpp"
 #include "littoral/error.hpp"
@@ -30,7 +31,14 @@ void write_text(const std::string& path, const std::string& text) {
 std::unique_ptr<coupler::FvPartner> partner_of(coupler::Job& job, const support::ProgramOptions& options,
                                                const RunConfig& config) {
   if (!options.replay.empty()) return coupler::replayed_fv_partner(options.replay);
-  const auto plan = support::run_plan(config.scene);
+  double time = 0.0;
+  std::int64_t window = 0;
+  if (!options.restart.empty()) {
+    const RunState run = read_run_state(options.restart, config.scene);
+    time = run.time;
+    window = run.window;
+  }
+  const auto plan = support::run_plan(config.scene, time, window);
   auto partner = choose_partner(job, config.scene, config.sph.coupling, plan, config.sph.spacing);
   if (partner && job.has_partner()) job.compare(config.scene.contract());
   if (partner && !options.record.empty()) return coupler::recording(std::move(partner), options.record);
@@ -40,7 +48,7 @@ std::unique_ptr<coupler::FvPartner> partner_of(coupler::Job& job, const support:
 template <int D>
 void run(coupler::Job& job, const support::ProgramOptions& options, const RunConfig& config,
          const std::string& folder, support::Log& log) {
-  Solver<D> solver(config, folder, log, partner_of(job, options, config));
+  Solver<D> solver(config, folder, log, partner_of(job, options, config), options.restart);
   solver.run();
 }
 

@@ -28,24 +28,38 @@ Layers<D> region_of(const RunConfig& config, bool coupled) {
 
 template <int D>
 Solver<D>::Solver(const RunConfig& config, const std::string& folder, support::Log& log,
-                  std::unique_ptr<coupler::FvPartner> partner)
+                  std::unique_ptr<coupler::FvPartner> partner, const std::string& restart)
     : config_(config),
       folder_(folder),
       log_(log),
       partner_(std::move(partner)),
       dynamics_(numerics_of<D>(config), domain_of<D>(config)),
       layers_(region_of<D>(config, partner_ != nullptr)),
-      output_(folder, config) {
+      restart_(restart.empty() ? std::nullopt : std::optional(read_run_state(restart, config.scene))),
+      output_(folder, config, restart_) {
+  if (partner_) driver_.emplace(config.scene, config.sph.coupling, dynamics_.numerics(), *partner_);
+  if (restart_) {
+    read_checkpoint(restart, config.scene, particles_, driver_ ? &driver_->hooks().exchange() : nullptr);
+    time_ = last_checkpoint_ = restart_->time;
+    window_ = restart_->window;
+    dynamics_.set_most_acceleration(restart_->most_acceleration);
+    log_.info("restart from " + restart + ", window " + std::to_string(window_));
+  } else {
+    place_particles();
+  }
+  log_.info(describe());
+}
+
+template <int D>
+void Solver<D>::place_particles() {
   for (const auto& box : layers_.boxes())
-    fill_lattice<D>(box.outer_lower, box.outer_upper, config.sph.spacing, config.scene,
+    fill_lattice<D>(box.outer_lower, box.outer_upper, config_.sph.spacing, config_.scene,
                     dynamics_.numerics().eos, particles_);
   if (particles_.n_owned == 0)
     throw ConfigError(
         "the scene has no particle at the start: initial.surface is not below 0 at any lattice point of the "
         "region. "
         "Check its sign (water where it is negative), the region's box and the spacing.");
-  if (partner_) driver_.emplace(config.scene, config.sph.coupling, dynamics_.numerics(), *partner_);
-  log_.info(describe());
 }
 
 template <int D>
@@ -62,9 +76,10 @@ std::string Solver<D>::describe() const {
 template <int D>
 void Solver<D>::begin() {
   if (driver_) {
-    driver_->begin(particles_);
+    if (!restart_) driver_->begin(particles_);
     driver_->announce(particles_);
   }
+  if (restart_) return;
   dynamics_.prepare(particles_, time_, hooks());
   output_.write_rows(moment({}), particles_, dynamics_, layers_);
   output_.write_fields(time_, particles_);
@@ -111,9 +126,12 @@ coupler::Agreement Solver<D>::agree() {
   coupler::Proposal mine;
   mine.dt_stable = dynamics_.stable_time_step();
   mine.write = output_.fields_due(time_ + mine.dt_stable);
+  mine.checkpoint = end.checkpoint_interval > 0.0 &&
+                    time_ + mine.dt_stable >= last_checkpoint_ + end.checkpoint_interval * (1.0 - 1e-9);
   if (time_ >= end.end * (1.0 - 1e-12))
     mine.stop = true, mine.reason = "the end of the scene's time is reached";
-  if (end.max_windows >= 0 && window_ >= end.max_windows)
+  const std::int64_t first_window = restart_ ? restart_->window : 0;
+  if (end.max_windows >= 0 && window_ >= first_window + end.max_windows)
     mine.stop = true, mine.reason = "time.max_windows is reached";
   if (partner_) return partner_->agree(mine);
   if (mine.stop) {
@@ -147,9 +165,28 @@ void Solver<D>::write(const coupler::Agreement& agreement) {
   dynamics_.prepare(particles_, time_, hooks());
   output_.write_rows(moment(window), particles_, dynamics_, layers_);
   if (agreement.write) output_.write_fields(time_, particles_);
+  if (agreement.checkpoint) write_checkpoint();
   std::ostringstream details;
   details << "dt " << window.substep_dt() << " s, " << particles_.n_owned << " particles";
   log_.progress(time_, config_.scene.time.end, details.str());
+}
+
+template <int D>
+void Solver<D>::write_checkpoint() {
+  last_checkpoint_ = time_;
+  RunState run;
+  run.time = time_;
+  run.window = window_;
+  run.last_fields = output_.last_fields();
+  run.most_acceleration = dynamics_.most_acceleration();
+  run.scene_title = config_.scene.title;
+  run.scene_digest = config_.scene.restart_digest;
+  // what a checkpoint does not hold, this run makes anew as the restarted one will
+  dynamics_.forget_lists();
+  particles_.drop_ghosts();
+  if (driver_) driver_->forget_hints(particles_);
+  const ParticleExchange<D>* exchange = driver_ ? &driver_->hooks().exchange() : nullptr;
+  sph::write_checkpoint(checkpoint_path(folder_, window_), run, particles_, exchange);
 }
 
 template <int D>

@@ -8,6 +8,7 @@
 #include "config.hpp"
 #include "coupling/window_driver.hpp"
 #include "coupling/zones.hpp"
+#include "io/checkpoint.hpp"
 #include "io/output.hpp"
 #include "littoral/coupler/partner.hpp"
 #include "littoral/support/log.hpp"
@@ -20,10 +21,11 @@ namespace littoral::sph {
 template <int D>
 class Solver {
  public:
-  /// Places the particles. folder: OUT/sph; partner: the grid side, or null.
-  /// throws ConfigError (no particle at all, unsuitable domain), IoError
+  /// Places the particles, or reads them from the checkpoint `restart` (empty: none). folder: OUT/sph;
+  /// partner: the grid side, or null.
+  /// throws ConfigError (no particle at all, unsuitable domain, checkpoint of another scene), IoError
   Solver(const RunConfig& config, const std::string& folder, support::Log& log,
-         std::unique_ptr<coupler::FvPartner> partner);
+         std::unique_ptr<coupler::FvPartner> partner, const std::string& restart = "");
 
   /// To the end of the scene's time. throws StabilityError, IoError, CouplingError
   void run();
@@ -38,6 +40,8 @@ class Solver {
   coupler::Agreement agree();
   void advance(const coupler::Agreement& agreement);
   void write(const coupler::Agreement& agreement);
+  void place_particles();
+  void write_checkpoint();
   StepHooks<D>* hooks();
   typename Output<D>::Moment moment(const coupler::Window& window) const;
   void write_summary(double wall_time);
@@ -51,9 +55,11 @@ class Solver {
   Dynamics<D> dynamics_;
   std::optional<WindowDriver<D>> driver_;  // of the coupling, with a partner only
   Layers<D> layers_;
+  std::optional<RunState> restart_;  // where this run goes on
   Output<D> output_;
-  double time_ = 0.0;        // [s]
-  std::int64_t window_ = 0;  // of the next window
+  double time_ = 0.0;             // [s]
+  std::int64_t window_ = 0;       // of the next window
+  double last_checkpoint_ = 0.0;  // [s]
   std::string stopped_because_;
 };
 

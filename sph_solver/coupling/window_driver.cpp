@@ -31,9 +31,14 @@ void WindowDriver<D>::announce(Particles<D>& particles) {
   const double skin = 2.0 * spacing_;
   partner_.announce(layers().needs(skin), layers().covers());
   donors_.set_geometry(partner_.donor_geometry());
+  forget_hints(particles);
+  samples_.resize(partner_.targets().size(), with_phi_);
+}
+
+template <int D>
+void WindowDriver<D>::forget_hints(Particles<D>& particles) {
   hooks_.exchange().elements().forget_hints();
   particles.donor_hint.assign(particles.n_owned, -1);
-  samples_.resize(partner_.targets().size(), with_phi_);
 }
 
 template <int D>

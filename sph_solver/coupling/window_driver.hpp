@@ -25,14 +25,18 @@ class WindowDriver {
   CouplingHooks<D>& hooks() { return hooks_; }
   const CouplingHooks<D>& hooks() const { return hooks_; }
 
-  /// Zones of the particles as they stand, and the start of the ledger. At a restart the ledger follows from
-  /// the checkpoint (unpack) instead.
+  /// Zones of the particles as they stand, and the start of the ledger. At a restart both are the
+  /// checkpoint's.
   void begin(Particles<D>& particles);
 
   /// Tells the partner where donors are needed and samples can be had, and takes its geometry and targets;
   /// the hints of earlier searches are void. At the start and whenever an agreement says region_changed.
   /// comm: collective, talks to the partner. throws CouplingError: no donors around an open face
   void announce(Particles<D>& particles);
+
+  /// The searches' memory is void: the next ones start afresh. After a checkpoint, so that this run goes on
+  /// as the restarted one will.
+  void forget_hints(Particles<D>& particles);
 
   /// One window; every pass of the schedule starts from the same particles.
   /// comm: collective, talks to the partner. throws CouplingError, StabilityError (also: the ledger's defect)

@@ -76,6 +76,7 @@ void write_checkpoint(const std::string& path, const RunState& run, const Partic
   file.put("scene_digest", run.scene_digest);
   file.put("time", run.time);
   file.put("window", run.window);
+  file.put("last_fields", run.last_fields);
   file.put("most_acceleration", run.most_acceleration);
   file.put("n_owned", static_cast<std::int64_t>(particles.n_owned));
   file.put("next_id", particles.next_id);
@@ -91,30 +92,44 @@ void write_checkpoint(const std::string& path, const RunState& run, const Partic
   file.commit();
 }
 
-template <int D>
-RunState read_checkpoint(const std::string& path, const std::string& scene_title,
-                         const std::string& scene_digest, Particles<D>& particles,
-                         ParticleExchange<D>* exchange) {
-  const support::CheckpointReader file(path);
+namespace {
+
+RunState read_run_state(const support::CheckpointReader& file, const std::string& path,
+                        const support::Scene& scene) {
   if (file.integer("format") != k_format)
     throw IoError(path + ": checkpoint format " + std::to_string(file.integer("format")) +
                   "; this program reads format " + std::to_string(k_format) + ".");
   RunState run;
   run.scene_title = file.text("scene_title");
   run.scene_digest = file.text("scene_digest");
-  if (run.scene_digest != scene_digest)
+  if (run.scene_digest != scene.restart_digest)
     throw ConfigError(path + ": this checkpoint belongs to another scene, '" + run.scene_title +
-                      "' (digest " + run.scene_digest + "); the run's scene is '" + scene_title +
-                      "' (digest " + scene_digest +
-                      "). Only time.end, time.max_windows and output intervals may differ at a restart.");
+                      "' (digest " + run.scene_digest + "); the run's scene is '" + scene.title +
+                      "' (digest " + scene.restart_digest +
+                      "). Only the title, the section time and coupling.deadline may differ at a restart.");
+  run.time = file.number("time");
+  run.window = file.integer("window");
+  run.last_fields = file.number("last_fields");
+  run.most_acceleration = file.number("most_acceleration");
+  return run;
+}
+
+}  // namespace
+
+RunState read_run_state(const std::string& path, const support::Scene& scene) {
+  return read_run_state(support::CheckpointReader(path), path, scene);
+}
+
+template <int D>
+RunState read_checkpoint(const std::string& path, const support::Scene& scene, Particles<D>& particles,
+                         ParticleExchange<D>* exchange) {
+  const support::CheckpointReader file(path);
+  const RunState run = read_run_state(file, path, scene);
   if (file.integer("dimension") != D)
     throw IoError(path + ": a checkpoint in " + std::to_string(file.integer("dimension")) + " dimensions.");
   if ((file.integer("coupled") != 0) != (exchange != nullptr))
     throw ConfigError(path + ": written " + (exchange == nullptr ? "with" : "without") +
                       " a partner, this run has " + (exchange == nullptr ? "none." : "one."));
-  run.time = file.number("time");
-  run.window = file.integer("window");
-  run.most_acceleration = file.number("most_acceleration");
   particles = Particles<D>();
   particles.n_owned = static_cast<std::size_t>(file.integer("n_owned"));
   particles.next_id = file.integer("next_id");
@@ -134,9 +149,9 @@ template void write_checkpoint<2>(const std::string&, const RunState&, const Par
                                   const ParticleExchange<2>*);
 template void write_checkpoint<3>(const std::string&, const RunState&, const Particles<3>&,
                                   const ParticleExchange<3>*);
-template RunState read_checkpoint<2>(const std::string&, const std::string&, const std::string&,
-                                     Particles<2>&, ParticleExchange<2>*);
-template RunState read_checkpoint<3>(const std::string&, const std::string&, const std::string&,
-                                     Particles<3>&, ParticleExchange<3>*);
+template RunState read_checkpoint<2>(const std::string&, const support::Scene&, Particles<2>&,
+                                     ParticleExchange<2>*);
+template RunState read_checkpoint<3>(const std::string&, const support::Scene&, Particles<3>&,
+                                     ParticleExchange<3>*);
 
 }  // namespace littoral::sph

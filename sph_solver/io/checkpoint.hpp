@@ -4,14 +4,16 @@
 #include <string>
 
 #include "coupling/particle_exchange.hpp"
+#include "littoral/support/scene.hpp"
 #include "particles/particles.hpp"
 
 namespace littoral::sph {
 
 /// Where a run stands, beside its particles.
 struct RunState {
-  double time = 0.0;        // [s]
-  std::int64_t window = 0;  // windows completed
+  double time = 0.0;         // [s]
+  std::int64_t window = 0;   // windows completed
+  double last_fields = 0.0;  // [s] when fields were written last
   double most_acceleration =
       0.0;  // [m/s^2] of the last right-hand side: the next step's length depends on it
   std::string scene_title;
@@ -26,11 +28,13 @@ template <int D>
 void write_checkpoint(const std::string& path, const RunState& run, const Particles<D>& particles,
                       const ParticleExchange<D>* exchange);
 
+/// Where the run of a checkpoint stands, without its particles. throws as read_checkpoint
+RunState read_run_state(const std::string& path, const support::Scene& scene);
+
 /// Reads what write_checkpoint wrote.
 /// throws IoError: missing, damaged, of the other dimension; ConfigError: of another scene (names both)
 template <int D>
-RunState read_checkpoint(const std::string& path, const std::string& scene_title,
-                         const std::string& scene_digest, Particles<D>& particles,
+RunState read_checkpoint(const std::string& path, const support::Scene& scene, Particles<D>& particles,
                          ParticleExchange<D>* exchange);
 
 /// OUT/sph/checkpoint_000120.h5

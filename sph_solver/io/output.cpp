@@ -53,6 +53,12 @@ support::OutputField field(const std::string& name, const Particles<D>& particle
   return out;
 }
 
+support::CsvSeries series(const std::string& path, const std::vector<std::string>& columns,
+                          const std::optional<RunState>& restart, const std::string& comment) {
+  return restart ? support::CsvSeries::append_after(path, columns, restart->time, comment)
+                 : support::CsvSeries(path, columns, comment);
+}
+
 /// Adds the wall time of its life to a sum.
 struct Stopwatch {
   double& sum;
@@ -63,14 +69,16 @@ struct Stopwatch {
 }  // namespace
 
 template <int D>
-Output<D>::Output(const std::string& folder, const RunConfig& config)
+Output<D>::Output(const std::string& folder, const RunConfig& config, const std::optional<RunState>& restart)
     : config_(config),
       gravity_(numerics_of<D>(config).gravity),
-      scalars_(folder + "/scalars.csv", scalar_columns(),
-               "SI units; in 2-D per metre of width; seconds_: wall time so far"),
-      fields_(folder, "particles", false, 0.0) {
+      scalars_(series(folder + "/scalars.csv", scalar_columns(), restart,
+                      "SI units; in 2-D per metre of width; seconds_: wall time so far")),
+      fields_(folder, "particles", restart.has_value(), restart ? restart->time : 0.0),
+      last_fields_(restart ? restart->last_fields : 0.0) {
   if (!config.sph.gauges.empty())
-    gauges_.emplace(folder + "/gauges.csv", with_time(gauge_columns(config.sph.gauges, D)));
+    gauges_.emplace(
+        series(folder + "/gauges.csv", with_time(gauge_columns(config.sph.gauges, D)), restart, ""));
 }
 
 template <int D>

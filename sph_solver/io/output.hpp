@@ -6,6 +6,7 @@
 
 #include "config.hpp"
 #include "coupling/zones.hpp"
+#include "io/checkpoint.hpp"
 #include "littoral/coupler/partner.hpp"
 #include "littoral/support/series.hpp"
 #include "particles/particles.hpp"
@@ -17,8 +18,9 @@ namespace littoral::sph {
 template <int D>
 class Output {
  public:
-  /// folder: OUT/sph. throws IoError
-  Output(const std::string& folder, const RunConfig& config);
+  /// folder: OUT/sph; restart: where the run goes on, or absent. Rows later than that are cut off.
+  /// throws IoError
+  Output(const std::string& folder, const RunConfig& config, const std::optional<RunState>& restart = {});
 
   /// True if a field is due at `time`.
   bool fields_due(double time) const;
@@ -39,7 +41,8 @@ class Output {
     if (time > last_fields_) write_fields(time, particles);
   }
 
-  double seconds() const { return seconds_; }  ///< wall time spent writing so far [s]
+  double last_fields() const { return last_fields_; }  ///< time of the last fields [s]
+  double seconds() const { return seconds_; }          ///< wall time spent writing so far [s]
 
  private:
   RunConfig config_;
