@@ -1,0 +1,183 @@
+#include "physics/dynamics.hpp"
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include "clouds.hpp"
+#include "littoral/error.hpp"
+
+namespace littoral::sph {
+namespace {
+
+using Side = support::Scene::Side;
+
+template <int D>
+DomainBox<D> box(double length, Side side) {
+  DomainBox<D> b;
+  b.upper.fill(length);
+  for (auto& sides : b.sides) sides = {side, side};
+  return b;
+}
+
+template <int D>
+Numerics<D> numerics(double radius) {
+  Numerics<D> n;
+  n.eos = {1.0, 10.0, 0.0};
+  n.spacing = 1.0;
+  n.kernel_radius = radius;
+  n.skin = 0.3;
+  n.reference_velocity = 1.0;
+  return n;
+}
+
+/// Doubly periodic vortices on a slightly disordered lattice.
+template <int D>
+Particles<D> vortices(int n, const LinearEos& eos) {
+  std::array<int, D> cells;
+  cells.fill(n);
+  auto particles = test::cloud<D>(cells, 1.0, 0.1);
+  const double k = 2.0 * 3.14159265358979323846 / n;
+  for (std::size_t i = 0; i < particles.n_owned; ++i) {
+    const double x = particles.x[0][i], z = particles.x[D - 1][i];
+    particles.u[0][i] = std::sin(k * x) * std::cos(k * z);
+    particles.u[D - 1][i] = -std::cos(k * x) * std::sin(k * z);
+    particles.p[i] = 0.25 * (std::cos(2 * k * x) + std::cos(2 * k * z));
+    particles.rho[i] = eos.density(particles.p[i]);
+    particles.m[i] = particles.rho[i] * particles.V[i];
+  }
+  return particles;
+}
+
+/// Positions after a fixed time in n steps, by id.
+std::vector<double> positions_after(int n_steps, double time) {
+  auto setup = numerics<2>(4.0);
+  setup.viscosity = 0.05;
+  setup.shifting = false;  // computed once a step, so of lower order in time by design
+  Dynamics<2> dynamics(setup, box<2>(16.0, Side::periodic));
+  auto particles = vortices<2>(16, setup.eos);
+  for (int k = 0; k < n_steps; ++k) dynamics.step(particles, k * time / n_steps, time / n_steps, nullptr);
+  std::vector<double> x(particles.n_owned);
+  for (std::size_t i = 0; i < particles.n_owned; ++i)
+    x[static_cast<std::size_t>(particles.id[i])] = particles.u[0][i];
+  return x;
+}
+
+double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::fabs(a[i] - b[i]));
+  return most;
+}
+
+TEST(DynamicsTest, IsOfFourthOrderInTime) {
+  // The kernel has two continuous derivatives, so the slopes are smooth enough for the fourth order to show.
+  const auto coarse = positions_after(10, 1.0), fine = positions_after(20, 1.0),
+             finest = positions_after(40, 1.0);
+  const double order = std::log2(largest_difference(coarse, fine) / largest_difference(fine, finest));
+  EXPECT_GT(order, 3.7);
+  EXPECT_LT(order, 4.5);
+}
+
+template <int D>
+void expect_same_for_any_threads(int n, double radius) {
+  std::vector<double> first;
+  for (int threads : {1, 2, 3}) {
+    omp_set_num_threads(threads);
+    auto setup = numerics<D>(radius);
+    setup.viscosity = 0.05;
+    setup.free_surface = true;
+    auto domain = box<D>(n, Side::periodic);
+    domain.sides[D - 1] = {Side::symmetry, Side::open};
+    Dynamics<D> dynamics(setup, domain);
+    auto particles = vortices<D>(n, setup.eos);
+    for (int k = 0; k < 5; ++k) dynamics.step(particles, 0.1 * k, 0.1, nullptr);
+    if (first.empty()) first = particles.u[0];
+    EXPECT_EQ(particles.u[0], first) << threads << " threads";
+  }
+  omp_set_num_threads(1);
+}
+
+TEST(DynamicsTest, IsBitwiseTheSameForAnyNumberOfThreads) {
+  expect_same_for_any_threads<2>(16, 4.0);
+  expect_same_for_any_threads<3>(8, 2.7);
+}
+
+TEST(DynamicsTest, UniformStreamThroughAPeriodicLatticeStays) {
+  auto setup = numerics<3>(2.7);
+  Dynamics<3> dynamics(setup, box<3>(8.0, Side::periodic));
+  auto particles = test::cloud<3>({8, 8, 8}, 1.0);
+  for (auto& u : particles.u[0]) u = 3.0;
+  for (int k = 0; k < 20; ++k) dynamics.step(particles, 0.1 * k, 0.1, nullptr);
+  for (std::size_t i = 0; i < particles.n_owned; ++i) {
+    EXPECT_NEAR(particles.u[0][i], 3.0, 1e-12);
+    EXPECT_NEAR(particles.u[2][i], 0.0, 1e-12);
+    EXPECT_NEAR(particles.V[i], 1.0, 1e-12);
+  }
+}
+
+TEST(DynamicsTest, FreeFallIsExact) {
+  auto setup = numerics<2>(4.0);
+  setup.gravity = {0.0, -2.0};
+  setup.free_surface = true;
+  setup.shifting = false;
+  auto domain = box<2>(100.0, Side::open);
+  Dynamics<2> dynamics(setup, domain);
+  auto particles = test::cloud<2>({6, 6}, 1.0);
+  const double start = particles.x[1][0];
+  for (int k = 0; k < 10; ++k) dynamics.step(particles, 0.1 * k, 0.1, nullptr);
+  std::size_t first = 0;
+  while (particles.id[first] != 0) ++first;
+  EXPECT_NEAR(particles.x[1][first], start - 1.0, 1e-12);  // g t^2 / 2
+  EXPECT_NEAR(particles.u[1][first], -2.0, 1e-12);
+}
+
+TEST(DynamicsTest, StepLimitsAreThoseOfTheFormula) {
+  auto setup = numerics<2>(4.0);
+  EXPECT_DOUBLE_EQ((Dynamics<2>(setup, box<2>(16.0, Side::periodic)).stable_time_step()), 0.375 * 4.0 / 10.0);
+  setup.viscosity = 100.0;
+  EXPECT_DOUBLE_EQ((Dynamics<2>(setup, box<2>(16.0, Side::periodic)).stable_time_step()),
+                   0.12 * 16.0 / 100.0);
+}
+
+TEST(DynamicsTest, AnUnstableStepNamesTheParticle) {
+  auto setup = numerics<2>(4.0);
+  Dynamics<2> dynamics(setup, box<2>(16.0, Side::periodic));
+  auto particles = vortices<2>(16, setup.eos);
+  particles.u[0][5] = std::nan("");
+  try {
+    dynamics.step(particles, 0.0, 0.1, nullptr);
+    FAIL() << "no error";
+  } catch (const StabilityError& error) {
+    EXPECT_NE(std::string(error.what()).find("particle "), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("cfl"), std::string::npos);
+  }
+}
+
+/// Counts its calls and moves nothing.
+struct Counting : StepHooks<2> {
+  std::vector<double> stages;
+  int before = 0, after = 0;
+  void before_step(Particles<2>&, double, double) override { ++before; }
+  void after_stage(Particles<2>&, double t) override { stages.push_back(t); }
+  void after_step(Particles<2>& particles, double, double) override {
+    ++after;
+    NewParticle<2> born;
+    born.x = {8.5 + after, 8.5};
+    born.V = born.m = 1.0;
+    particles.append(born);
+  }
+};
+
+TEST(DynamicsTest, HooksSeeStageTimesAndMayAddParticles) {
+  auto setup = numerics<2>(4.0);
+  Dynamics<2> dynamics(setup, box<2>(16.0, Side::periodic));
+  auto particles = test::cloud<2>({16, 4}, 1.0);
+  Counting hooks;
+  dynamics.step(particles, 1.0, 0.1, &hooks);
+  EXPECT_EQ(hooks.stages, (std::vector<double>{1.05, 1.05, 1.1, 1.1}));
+  dynamics.step(particles, 1.1, 0.1, &hooks);
+  EXPECT_EQ(hooks.before, 2);
+  EXPECT_EQ(particles.n_owned, 66u);
+}
+
+}  // namespace
+}  // namespace littoral::sph
