@@ -1,7 +1,8 @@
 """C7: particles enter and leave through the interface; ledger, number, spacing and pressure over 20 periods of 4H/c."""
 
 import numpy as np
-from lib import coupled, signals
+from lib import coupled
+from littoral_lib import signals
 
 S, OMEGA, RHO, G, DX, WIDTH = 0.12, np.pi / 2, 1000.0, 1.0, 0.04, 0.8
 RULES = ("crossing", "nearest")

@@ -1,7 +1,8 @@
 """C6: nothing may change in a uniform stream, neither in particles that cross the region nor in the grid around it."""
 
 import numpy as np
-from lib import coupled, signals
+from lib import coupled
+from littoral_lib import signals
 from scipy.spatial import cKDTree
 
 DX = 0.05
