@@ -29,11 +29,23 @@ std::unique_ptr<Companion<D>> companion_of(coupler::Job& job, const ProgramOptio
   return std::make_unique<Alone<D>>(solver.start_time(), scene.time.end, scene.time.max_windows);
 }
 
+/// A run alone takes its steps from this program's file.
+void need_step(const ProgramOptions& options, const FvConfig& config, const support::Scene& scene) {
+  if (!scene.has_region() && !config.time.dt && !config.time.cfl)
+    throw ConfigError(options.config + ": a run without partner needs a step: give time.dt or time.cfl");
+}
+
+/// What --check finds beyond reading: a grid that cannot be built.
+template <int D>
+std::ptrdiff_t count_cells(const FvConfig& config, const support::Scene& scene) {
+  std::ptrdiff_t cells = 0;
+  for (const Block<D>& block : build_blocks<D>(config, scene)) cells += block.extent.cells();
+  return cells;
+}
+
 template <int D>
 void run_scene(coupler::Job& job, const ProgramOptions& options, const FvConfig& config,
                const support::Scene& scene) {
-  if (!scene.has_region() && !config.time.dt && !config.time.cfl)
-    throw ConfigError(options.config + ": a run without partner needs a step: give time.dt or time.cfl");
   Solver<D> solver(config, scene, options.out, options.restart);
   solver.run(*companion_of<D>(job, options, config, scene, solver));
 }
@@ -64,8 +76,11 @@ int run(coupler::Job& job, int argc, char** argv) {
     if (speaks) std::printf("# scene\n%s# fv\n%s", scene.resolved().c_str(), config.resolved().c_str());
     return 0;
   }
+  need_step(options, config, scene);
   if (options.check) {
-    if (speaks) std::printf("fv_solver: %s: no problem found\n", options.config.c_str());
+    const std::ptrdiff_t cells =
+        scene.dimension == 2 ? count_cells<2>(config, scene) : count_cells<3>(config, scene);
+    if (speaks) std::printf("fv_solver: %s: no problem found; %td cells\n", options.config.c_str(), cells);
     return 0;
   }
   if (job.size() > 1)

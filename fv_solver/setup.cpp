@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "boundary/ghosts.hpp"
 #include "dual_time/plain.hpp"
 #include "grid/box.hpp"
 #include "grid/space.hpp"
@@ -33,10 +34,22 @@ double velocity_scale(const FvConfig& config, const support::Scene& scene) {
 }  // namespace
 
 template <int D>
-Stepper<D> make_stepper(const FvConfig& config, const support::Scene& scene) {
+std::vector<Block<D>> build_blocks(const FvConfig& config, const support::Scene& scene) {
   std::vector<Block<D>> blocks;
-  for (const BlockConfig& block : config.blocks) blocks.push_back(build_block<D>(block, scene));
+  std::string problems;
+  for (const BlockConfig& block : config.blocks) try {
+      blocks.push_back(build_block<D>(block, scene));
+      check_windows(blocks.back());
+    } catch (const ConfigError& problem) {
+      problems += (problems.empty() ? "" : "\n") + std::string(problem.what());
+    }
+  if (!problems.empty()) throw ConfigError(problems);
+  return blocks;
+}
 
+template <int D>
+Stepper<D> make_stepper(const FvConfig& config, const support::Scene& scene) {
+  std::vector<Block<D>> blocks = build_blocks<D>(config, scene);
   Equations<D> equations;
   equations.fluid = fluid_of<D>(scene);
   equations.limiter = config.limiter;
@@ -83,6 +96,8 @@ Stepper<D> make_stepper(const FvConfig& config, const support::Scene& scene) {
   return stepper;
 }
 
+template std::vector<Block<2>> build_blocks<2>(const FvConfig&, const support::Scene&);
+template std::vector<Block<3>> build_blocks<3>(const FvConfig&, const support::Scene&);
 template Stepper<2> make_stepper<2>(const FvConfig&, const support::Scene&);
 template Stepper<3> make_stepper<3>(const FvConfig&, const support::Scene&);
 
