@@ -43,7 +43,7 @@ struct Channel::Wait {
 };
 
 Channel::Channel(MPI_Comm intercomm, std::string partner, double deadline)
-    : intercomm_(intercomm), partner_(std::move(partner)), deadline_(deadline) {
+    : intercomm_(intercomm), partner_(std::move(partner)), deadline_(deadline), outbox_(intercomm) {
   MPI_Comm_remote_size(intercomm, &size_);
 }
 
@@ -77,46 +77,75 @@ void Channel::start_send(int rank, const Bytes& message) {
   if (message.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
     throw CouplingError("a message of " + std::to_string(message.size()) + " bytes to " + who(rank) +
                         " exceeds what MPI can count; use more ranks");
-  MPI_Isend(message.data(), static_cast<int>(message.size()), MPI_CHAR, rank, k_tag_message, intercomm_,
-            &sends_.emplace_back());
-  receivers_.push_back(rank);
+  outbox_.start(rank, message);
 }
 
 void Channel::complete_sends(const Expected& what) {
-  if (sends_.empty()) return;
+  if (outbox_.empty()) return;
   Wait wait(*this);
-  for (;;) {
-    int done = 0;
-    MPI_Testall(static_cast<int>(sends_.size()), sends_.data(), &done, MPI_STATUSES_IGNORE);
-    if (done) break;
-    if (!wait.go_on()) give_up("its reception of " + describe(what), receivers_, deadline_);
+  while (!outbox_.progress()) {
+    if (outbox_.moving() && !wait.patience.expired()) continue;  // bytes are moving: they need us
+    if (!wait.go_on()) give_up("its reception of " + describe(what), outbox_.ranks(), deadline_);
   }
-  sends_.clear();
-  receivers_.clear();
 }
 
-/// Moves message i one state on, if it can.
-bool Channel::advance(std::size_t i, int rank, const Expected& expected, Bytes& buffer, Header& header) {
+/// A message or the header of a long one has come: checks it, takes it or asks for the rest.
+void Channel::begin_reception(std::size_t i, int rank, const Expected& expected, Bytes& buffer,
+                              Header& header) {
   int yes = 0;
-  if (progress_[i] == Progress::awaited) {
-    MPI_Message handle;
-    MPI_Status status;
-    MPI_Improbe(rank, k_tag_message, intercomm_, &yes, &handle, &status);
-    if (!yes) return false;
-    int count = 0;
-    MPI_Get_count(&status, MPI_CHAR, &count);
-    buffer.resize(static_cast<std::size_t>(count));
+  MPI_Message handle;
+  MPI_Status status;
+  MPI_Improbe(rank, k_tag_message, intercomm_, &yes, &handle, &status);
+  if (!yes) return;
+  int count = 0;
+  MPI_Get_count(&status, MPI_CHAR, &count);
+  buffer.resize(static_cast<std::size_t>(count));
+  if (buffer.size() != sizeof(Header)) {
     MPI_Imrecv(buffer.data(), count, MPI_CHAR, &handle, &receives_[i]);
     progress_[i] = Progress::arriving;
+    return;
   }
+  MPI_Mrecv(buffer.data(), count, MPI_CHAR, &handle, &status);
+  header = checked_header_of_long_message(buffer.data(), expected, who(rank));
+  if (header.bytes == 0) {
+    progress_[i] = Progress::here;
+    return;
+  }
+  MPI_Send(nullptr, 0, MPI_CHAR, rank, k_tag_request, intercomm_);  // empty: goes at once
+  progress_[i] = Progress::asked;
+}
+
+/// The rest of a long message has come.
+void Channel::begin_rest(std::size_t i, int rank, const Header& header, Bytes& buffer) {
+  int yes = 0;
+  MPI_Message handle;
+  MPI_Status status;
+  MPI_Improbe(rank, k_tag_rest, intercomm_, &yes, &handle, &status);
+  if (!yes) return;
+  int count = 0;
+  MPI_Get_count(&status, MPI_CHAR, &count);
+  if (static_cast<std::uint64_t>(count) != header.bytes)
+    throw CouplingError(who(rank) + " sent " +
+                        (static_cast<std::uint64_t>(count) < header.bytes ? "a truncated" : "an oversized") +
+                        " message (" + name(header.kind) + "): it announces " + std::to_string(header.bytes) +
+                        " bytes and holds " + std::to_string(count));
+  buffer.resize(sizeof(Header) + static_cast<std::size_t>(count));
+  MPI_Imrecv(buffer.data() + sizeof(Header), count, MPI_CHAR, &handle, &receives_[i]);
+  progress_[i] = Progress::arriving;
+}
+
+/// Moves message i as far as it goes now; true when it is here.
+bool Channel::advance(std::size_t i, int rank, const Expected& expected, Bytes& buffer, Header& header) {
+  if (progress_[i] == Progress::awaited) begin_reception(i, rank, expected, buffer, header);
+  if (progress_[i] == Progress::asked) begin_rest(i, rank, header, buffer);
   if (progress_[i] == Progress::arriving) {
+    int yes = 0;
     MPI_Test(&receives_[i], &yes, MPI_STATUS_IGNORE);
     if (!yes) return false;
     progress_[i] = Progress::here;
     header = checked_header(buffer.data(), buffer.size(), expected, who(rank));
-    return true;
   }
-  return false;
+  return progress_[i] == Progress::here;
 }
 
 /// Before an error leaves: no buffer may go away while MPI still writes into it.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bytes.hpp"
+#include "outbox.hpp"
 #include "wire.hpp"
 
 namespace littoral::coupler {
@@ -47,6 +48,8 @@ class Channel {
   struct Wait;
   void look_for_notice();
   bool advance(std::size_t i, int rank, const Expected& expected, Bytes& buffer, Header& header);
+  void begin_reception(std::size_t i, int rank, const Expected& expected, Bytes& buffer, Header& header);
+  void begin_rest(std::size_t i, int rank, const Header& header, Bytes& buffer);
   void settle_receives();
   [[noreturn]] void give_up(const std::string& awaited, const std::vector<int>& silent, double seconds) const;
 
@@ -55,9 +58,9 @@ class Channel {
   double deadline_;
   int size_ = 0;
   double waited_ = 0.0;
-  std::vector<MPI_Request> sends_, receives_;
-  std::vector<int> receivers_;  // of the sends under way
-  enum class Progress : std::uint8_t { awaited, arriving, here };
+  Outbox outbox_;
+  std::vector<MPI_Request> receives_;
+  enum class Progress : std::uint8_t { awaited, asked, arriving, here };
   std::vector<Progress> progress_;
   std::optional<Notice> farewell_;  // goodbye or leaving, seen while waiting for something else
 };

@@ -61,14 +61,17 @@ class MpiSphPartner final : public SphPartner {
     samples.resize(n_targets_, with_phi_);
     samples.time = window.t_end;
     std::fill(samples.status.begin(), samples.status.end(), SampleStatus::uncovered);
-    for (auto* column : {&samples.p, &samples.u, &samples.v, &samples.w, &samples.phi})
-      std::fill(column->begin(), column->end(), 0.0);
     std::fill(samples.coverage.begin(), samples.coverage.end(), 0.0);
     auto& channel = meeting_.channel();
     channel.receive(target_ranks_, expected_, in_, headers_);
     for (std::size_t i = 0; i < target_ranks_.size(); ++i)
       merge(in_[i].data() + sizeof(Header), in_[i].size() - sizeof(Header), channel.who(target_ranks_[i]),
             chosen_[i], samples);
+    for (std::size_t i = 0; i < n_targets_; ++i) {  // only what is marked as valid carries a number
+      if (samples.status[i] == SampleStatus::ok) continue;
+      samples.p[i] = samples.u[i] = samples.v[i] = samples.w[i] = 0.0;
+      if (samples.status[i] == SampleStatus::uncovered && with_phi_) samples.phi[i] = 0.0;
+    }
   }
 
   void receive_particles(const Window& window, ParticleStates& states) override {

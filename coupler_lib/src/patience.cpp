@@ -11,9 +11,9 @@ namespace littoral::coupler {
 
 namespace {
 
-constexpr double k_spin = 50e-6;            // [s] about the time a message of a window's size needs
+constexpr double k_spin = 250e-6;           // [s] what a partner needs to pack some ten thousand points
 constexpr double k_shortest_sleep = 20e-6;  // [s]
-constexpr double k_longest_sleep = 500e-6;  // [s]
+constexpr double k_longest_sleep = 1e-3;    // [s]
 
 }  // namespace
 
@@ -29,7 +29,10 @@ bool Patience::expired() const { return elapsed() > deadline_; }
 
 void Patience::pause() {
   const double waited = elapsed();
-  if (waited < k_spin) return;
+  if (waited < k_spin) {
+    std::this_thread::yield();  // the partner may need this very core
+    return;
+  }
   std::this_thread::sleep_for(
       std::chrono::duration<double>(std::clamp(waited / 20.0, k_shortest_sleep, k_longest_sleep)));
 }

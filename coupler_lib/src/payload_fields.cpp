@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -79,8 +80,10 @@ void unpack(const char* bytes, std::size_t count, const std::string& who, const 
   values.horizon_begin = reader.value<double>();
   values.horizon_end = reader.value<double>();
   const auto column = [&](const char* field, std::vector<double>& target) {
-    reader.column(target.data() + offset, n);
-    refuse_if_not_finite(target.data() + offset, n, usable, field, "donors", who);
+    if (n > reader.left() / sizeof(double)) reader.refuse("a column is longer than the message");
+    double* to = target.data() + offset;
+    if (!copy_finite(reader.take(n * sizeof(double)), to, n))
+      refuse_if_not_finite(to, n, usable, field, "donors", who);
   };
   for (const auto& [field, member] : k_donor_columns) column(field, values.*member);
   if (with_phi)
@@ -113,40 +116,52 @@ void merge(const char* bytes, std::size_t count, const std::string& who,
   }
   const char* statuses = reader.take(n);
   reader.expect_end();
-  const auto value = [&](std::size_t c, std::size_t i) {
+  const auto value = [](const char* from, std::size_t i) {
     double v;
-    std::memcpy(&v, column[c] + i * sizeof v, sizeof v);
+    std::memcpy(&v, from + i * sizeof v, sizeof v);
     return v;
   };
-  constexpr std::array<const char*, 6> k_names{"p", "u", "v", "w", "coverage", "phi"};
-  std::array<std::size_t, 6> bad{};
   const bool take_phi = with_phi && !samples.phi.empty();
+  unsigned char worst = 0;
+  for (std::size_t i = 0; i < n; ++i) worst = std::max(worst, static_cast<unsigned char>(statuses[i]));
+  if (worst > static_cast<unsigned char>(SampleStatus::uncovered))
+    throw CouplingError(who + " sent a sample with the unknown status " + std::to_string(worst));
+
+  bool all_finite = true;
   for (std::size_t i = 0; i < n; ++i) {
-    const auto raw = static_cast<unsigned char>(statuses[i]);
-    if (raw > static_cast<unsigned char>(SampleStatus::uncovered))
-      throw CouplingError(who + " sent a sample with the unknown status " + std::to_string(raw));
-    const auto status = static_cast<SampleStatus>(raw);
-    const double coverage = value(4, i);
     const std::size_t at = chosen[i];
-    bad[4] += !std::isfinite(coverage);
-    if (status == SampleStatus::ok)
-      for (std::size_t c = 0; c < 4; ++c) bad[c] += !std::isfinite(value(c, i));
-    if (take_phi && status != SampleStatus::uncovered) bad[5] += !std::isfinite(value(5, i));
+    const auto status = static_cast<SampleStatus>(statuses[i]);
+    const double coverage = value(column[4], i);
+    const double p = value(column[0], i), u = value(column[1], i), v = value(column[2], i),
+                 w = value(column[3], i);
+    all_finite = all_finite && std::isfinite(p * 0.0 + u * 0.0 + v * 0.0 + w * 0.0 + coverage * 0.0);
     const bool better =
         status < samples.status[at] || (status == samples.status[at] && coverage > samples.coverage[at]);
     if (!better) continue;
     samples.status[at] = status;
-    samples.p[at] = value(0, i);
-    samples.u[at] = value(1, i);
-    samples.v[at] = value(2, i);
-    samples.w[at] = value(3, i);
+    samples.p[at] = p;
+    samples.u[at] = u;
+    samples.v[at] = v;
+    samples.w[at] = w;
     samples.coverage[at] = coverage;
-    if (take_phi) samples.phi[at] = value(5, i);
+    if (take_phi) samples.phi[at] = value(column[5], i);
   }
-  for (std::size_t c = 0; c < bad.size(); ++c)
-    if (bad[c] > 0)
-      throw CouplingError(who + " sent samples with " + std::to_string(bad[c]) + " of " + std::to_string(n) +
+  if (take_phi) all_finite = all_finite && coupler::all_finite(column[5], n);
+  if (all_finite) return;
+
+  // which ones, and do they matter? a state where it is ok, phi where there is any answer, coverage always
+  constexpr std::array<const char*, 6> k_names{"p", "u", "v", "w", "coverage", "phi"};
+  for (std::size_t c = 0; c < n_columns; ++c) {
+    const auto matters = [&](std::size_t i) {
+      const auto status = static_cast<SampleStatus>(statuses[i]);
+      return c == 4 || (c == 5 ? take_phi && status != SampleStatus::uncovered : status == SampleStatus::ok);
+    };
+    std::size_t bad = 0;
+    for (std::size_t i = 0; i < n; ++i) bad += matters(i) && !std::isfinite(value(column[c], i));
+    if (bad > 0)
+      throw CouplingError(who + " sent samples with " + std::to_string(bad) + " of " + std::to_string(n) +
                           " values of " + k_names[c] + " NaN or infinite");
+  }
 }
 
 std::size_t pack(Bytes& message, const ParticleStates& states, const Box& box) {

@@ -12,6 +12,9 @@ namespace littoral::coupler {
 
 namespace {
 
+// NaN and infinity have all bits of the exponent set. A test of the bits vectorises.
+constexpr std::uint64_t k_exponent = 0x7ff0'0000'0000'0000;
+
 using Column = std::pair<const char*, const std::vector<double>*>;
 
 [[noreturn]] void refuse(const std::string& who, const std::string& what) {
@@ -43,17 +46,30 @@ std::string text_of(double number) {
   return text.data();
 }
 
-std::size_t count_not_finite(const double* values, std::size_t n, const std::uint8_t* matters) {
-  // NaN and infinity have all bits of the exponent set. One pass over the bits vectorises and almost always
-  // decides.
-  constexpr std::uint64_t k_exponent = 0x7ff0'0000'0000'0000;
+bool all_finite(const void* values, std::size_t n) {
+  const char* bytes = static_cast<const char*>(values);
   std::uint64_t suspicious = 0;
   for (std::size_t i = 0; i < n; ++i) {
     std::uint64_t bits;
-    std::memcpy(&bits, values + i, sizeof bits);
+    std::memcpy(&bits, bytes + i * sizeof bits, sizeof bits);
     suspicious |= static_cast<std::uint64_t>((bits & k_exponent) == k_exponent);
   }
-  if (suspicious == 0) return 0;
+  return suspicious == 0;
+}
+
+bool copy_finite(const char* __restrict from, double* __restrict to, std::size_t n) {
+  std::uint64_t suspicious = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    std::uint64_t bits;
+    std::memcpy(&bits, from + i * sizeof bits, sizeof bits);
+    std::memcpy(to + i, &bits, sizeof bits);
+    suspicious |= static_cast<std::uint64_t>((bits & k_exponent) == k_exponent);
+  }
+  return suspicious == 0;
+}
+
+std::size_t count_not_finite(const double* values, std::size_t n, const std::uint8_t* matters) {
+  if (all_finite(values, n)) return 0;
   std::size_t count = 0;
   for (std::size_t i = 0; i < n; ++i) count += (!matters || matters[i]) && !std::isfinite(values[i]);
   return count;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstring>
+#include <limits>
 
 #include "littoral/error.hpp"
 #include "validate.hpp"
@@ -17,7 +18,7 @@ namespace {
 bool is_known(Kind kind) { return kind >= Kind::contract && kind <= Kind::abort; }
 
 /// Size, magic, check: whatever the kind.
-Header read_header(const char* message, std::size_t received, const std::string& who,
+Header read_header(const char* message, std::size_t received, bool is_whole, const std::string& who,
                    const std::string& awaited) {
   Header header;
   const std::string instead = awaited.empty() ? "" : "; awaited: " + awaited;
@@ -28,7 +29,7 @@ Header read_header(const char* message, std::size_t received, const std::string&
   if (header.check != header_check(header) || !is_known(header.kind))
     refuse(who, "a damaged header" + instead);
   const std::size_t payload = received - sizeof header;
-  if (header.bytes != payload)
+  if (is_whole && header.bytes != payload)
     refuse(who, std::string(header.bytes > payload ? "a truncated" : "an oversized") + " message (" +
                     name(header.kind) + "): it announces " + std::to_string(header.bytes) +
                     " bytes and holds " + std::to_string(payload));
@@ -109,10 +110,10 @@ void seal(Bytes& message, const Expected& content, std::uint64_t count) {
   std::memcpy(message.data(), &header, sizeof header);
 }
 
-Header checked_header(const char* message, std::size_t received, const Expected& expected,
-                      const std::string& who) {
+namespace {
+
+void compare(const Header& header, const Expected& expected, const std::string& who) {
   const std::string awaited = describe(expected);
-  const Header header = read_header(message, received, who, awaited);
   if (header.kind != expected.kind)
     refuse(who, std::string("the ") + name(header.kind) + place(header.kind, header.window, header.pass) +
                     "; awaited: " + awaited);
@@ -128,6 +129,22 @@ Header checked_header(const char* message, std::size_t received, const Expected&
   if (expected.count && header.count != *expected.count)
     refuse(who, awaited + " with " + std::to_string(header.count) + " entries where " +
                     std::to_string(*expected.count) + " are due");
+}
+
+}  // namespace
+
+Header checked_header(const char* message, std::size_t received, const Expected& expected,
+                      const std::string& who) {
+  const Header header = read_header(message, received, true, who, describe(expected));
+  compare(header, expected, who);
+  return header;
+}
+
+Header checked_header_of_long_message(const char* message, const Expected& expected, const std::string& who) {
+  const Header header = read_header(message, sizeof header, false, who, describe(expected));
+  compare(header, expected, who);
+  if (header.bytes > static_cast<std::uint64_t>(std::numeric_limits<int>::max()))
+    refuse(who, describe(expected) + " with more bytes than MPI can count");
   return header;
 }
 
@@ -141,7 +158,7 @@ Bytes pack(const Notice& notice) {
 }
 
 Notice unpack_notice(const char* message, std::size_t received, const std::string& who) {
-  const Header header = read_header(message, received, who, "");
+  const Header header = read_header(message, received, true, who, "");
   if (header.kind < Kind::goodbye) refuse(who, std::string("the ") + name(header.kind) + " as a notice");
   return {header.kind, std::string(message + sizeof header, received - sizeof header)};
 }

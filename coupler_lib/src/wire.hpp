@@ -42,6 +42,11 @@ const char* name(Kind kind);
 /// Tags on the intercommunicator.
 inline constexpr int k_tag_message = 1;
 inline constexpr int k_tag_notice = 2;
+inline constexpr int k_tag_request = 3;  // empty: the receiver of a long message's header asks for the rest
+inline constexpr int k_tag_rest = 4;
+
+/// Longer messages go in two pieces: the header, and on request the rest.
+inline constexpr std::size_t k_one_piece = 4096;  // [bytes]
 
 /// Stands in front of every message.
 struct Header {
@@ -79,6 +84,10 @@ std::uint64_t header_check(const Header& header);
 /// throws CouplingError: "<who> sent ..."
 Header checked_header(const char* message, std::size_t received, const Expected& expected,
                       const std::string& who);
+
+/// The header alone, where the rest of the message is still to be asked for: everything but the number of
+/// bytes that follow is compared.
+Header checked_header_of_long_message(const char* message, const Expected& expected, const std::string& who);
 
 /// A notice: kind goodbye, leaving or abort, and a reason.
 struct Notice {

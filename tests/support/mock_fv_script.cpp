@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <thread>
 
+#include "clip.hpp"
 #include "littoral/error.hpp"
 #include "mock.hpp"
 
@@ -91,6 +92,9 @@ int play_fv(Job& job, const Script& script) {
     targets = targets_of(part, script);
   }
   partner->offer(geometry, targets);
+  // donors that the partner's first rank awaits
+  const Box first = part_of(script.region, 0, job.partner_size(), script);
+  const std::size_t n_first = clipped(geometry, clip(geometry, first)).size();
   Proposal proposal;
   proposal.dt_stable = 1e30;
   proposal.wants_particles = script.wants_particles;
@@ -117,7 +121,7 @@ int play_fv(Job& job, const Script& script) {
     }
     std::this_thread::sleep_for(std::chrono::duration<double>(script.work));
     for (int pass = 0; pass < plan.schedule.sph_passes(); ++pass) {
-      if (!misbehave_in_message(script, job, true, window, geometry.size())) {
+      if (!misbehave_in_message(script, job, true, window, n_first)) {
         fill(geometry, window, script.with_phi, donors);
         if (script.misbehave == "nan" && window.index == script.at)
           for (std::size_t i = 0; i < 3; ++i)

@@ -57,6 +57,14 @@ bool misbehave_in_message(const Script& script, const Job& job, bool donors, con
     std::mt19937 random(11);
     for (auto& byte : message) byte = static_cast<char>(random());
   }
+  if (mode == "rest-truncated" || mode == "rest-oversized") {  // a long message goes in two pieces
+    MPI_Send(message.data(), sizeof(Header), MPI_CHAR, 0, k_tag_message, job.intercomm());
+    MPI_Recv(nullptr, 0, MPI_CHAR, 0, k_tag_request, job.intercomm(), MPI_STATUS_IGNORE);
+    message.resize(message.size() - 8 + (mode == "rest-truncated" ? 0 : 16));
+    MPI_Send(message.data() + sizeof(Header), static_cast<int>(message.size() - sizeof(Header)), MPI_CHAR, 0,
+             k_tag_rest, job.intercomm());
+    return true;
+  }
   const std::vector<std::string> modes{"wrong-window", "wrong-time",   "wrong-kind",
                                        "wrong-count",  "truncated",    "oversized",
                                        "header-only",  "random-bytes", "short-horizon"};
