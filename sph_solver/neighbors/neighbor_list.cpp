@@ -88,7 +88,7 @@ void NeighborList<D>::build(const Particles<D>& particles) {
 }
 
 template <int D>
-bool NeighborList<D>::outdated(const Particles<D>& particles) const {
+bool NeighborList<D>::outdated(const Particles<D>& particles, double ahead) const {
   if (!built_ || revision_ != particles.revision) return true;
   const auto n = static_cast<std::ptrdiff_t>(particles.n_owned);
   double most = 0.0;
@@ -97,7 +97,7 @@ bool NeighborList<D>::outdated(const Particles<D>& particles) const {
     const auto k = static_cast<std::size_t>(i);
     double r2 = 0.0;
     for (std::size_t d = 0; d < D; ++d) {
-      const double moved = particles.x[d][k] - x_at_build_[d][k];
+      const double moved = particles.x[d][k] + ahead * particles.u[d][k] - x_at_build_[d][k];
       r2 += moved * moved;
     }
     most = std::max(most, r2);

@@ -26,8 +26,9 @@ class NeighborList {
   const std::vector<std::int32_t>& space_order(const Particles<D>& particles);
   /// From the positions of owned particles and copies.
   void build(const Particles<D>& particles);
-  /// True if particles were added, removed or moved by more than half the skin since build().
-  bool outdated(const Particles<D>& particles) const;
+  /// True if particles were added, removed or moved by more than half the skin since build(), or will be once
+  /// they have gone on for `ahead` [s] at their velocity.
+  bool outdated(const Particles<D>& particles, double ahead = 0.0) const;
 
   void forget() { built_ = false; }  ///< outdated() until the next build
 

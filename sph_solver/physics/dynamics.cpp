@@ -53,10 +53,12 @@ void Dynamics<D>::build_lists(Particles<D>& particles) {
 }
 
 template <int D>
-void Dynamics<D>::prepare(Particles<D>& particles, double t, StepHooks<D>* hooks) {
+void Dynamics<D>::prepare(Particles<D>& particles, double t, StepHooks<D>* hooks, double dt) {
   {
     const PhaseSeconds::Scope scope(seconds_, Phase::lists);
-    if (neighbors_.outdated(particles)) {
+    // Lists that would become outdated in the middle of the step are built now: only here can particles that
+    // left through a periodic face be brought back, so that none strays further than half the skin.
+    if (neighbors_.outdated(particles, dt)) {
       work_.mirrored_back +=
           static_cast<std::int64_t>(ghosts_.bring_back(particles, k_mirror_tolerance * numerics_.spacing, t));
       particles.permute(neighbors_.space_order(particles));
@@ -103,7 +105,7 @@ void Dynamics<D>::step(Particles<D>& particles, double t, double dt, StepHooks<D
     const PhaseSeconds::Scope scope(seconds_, Phase::hooks);
     hooks->before_step(particles, t, dt);
   }
-  prepare(particles, t, hooks);
+  prepare(particles, t, hooks, dt);
   if (numerics_.shifting) {
     const PhaseSeconds::Scope scope(seconds_, Phase::shift);
     shifting_.compute(particles, neighbors_, numerics_.free_surface ? &surface_ : nullptr);  // (S10)

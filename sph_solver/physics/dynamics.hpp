@@ -46,8 +46,8 @@ class Dynamics {
   void step(Particles<D>& particles, double t, double dt, StepHooks<D>* hooks);
 
   /// Makes copies and lists belong to the particles as they stand (sorting them if lists are made anew), so
-  /// that points can be sampled and the surface is known. step() does this itself.
-  void prepare(Particles<D>& particles, double t, StepHooks<D>* hooks);
+  /// that points can be sampled and the surface is known. step() does this itself, ahead for its own dt.
+  void prepare(Particles<D>& particles, double t, StepHooks<D>* hooks, double dt = 0.0);
 
   /// The particles were changed from outside (put back to an earlier state, say): lists and copies are made
   /// anew.
