@@ -18,6 +18,14 @@ std::array<double, D> centre(const Block<D>& block, std::size_t c) {
   return x;
 }
 
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+const char* const k_advice = "try a smaller step, a smaller dual_time.pseudo_cfl, or the limiter.";
+
 }  // namespace
 
 template <int D>
@@ -54,6 +62,7 @@ void Stepper<D>::initialise(const FlowFunction<D>& flow, double t) {
     evaluate_windows(blocks_[b], equations_, t);
     fill_ghosts(blocks_[b], q);
   }
+  check("This is the initial state: look at the scene's initial formulas.");
 }
 
 template <int D>
@@ -119,8 +128,14 @@ StepReport Stepper<D>::advance(double dt, const std::vector<Imposed<D>>& imposed
   ++steps_;
 
   const StepProblem<D> problem{blocks_, equations_, s, history_, forcing_};
-  StepReport report = inner_->solve(problem, tolerance_, level_[0]);
-  check(dt);
+  StepReport report;
+  try {
+    report = inner_->solve(problem, tolerance_, level_[0]);
+  } catch (const StabilityError& lost) {
+    check("dt was " + number(dt) + " s; " + k_advice);  // names place and state where they show it
+    throw StabilityError(std::string(lost.what()) + "; dt was " + number(dt) + " s");
+  }
+  check("dt was " + number(dt) + " s; " + k_advice);
   return report;
 }
 
@@ -181,16 +196,16 @@ void Stepper<D>::recall(const Memory& memory) {
 }
 
 template <int D>
-void Stepper<D>::check(double dt) const {
+void Stepper<D>::check(const std::string& advice) const {
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const Block<D>& block = blocks_[b];
     const State<D>& q = level_[0][b];
     for_each_index<D>({}, block.extent.n, [&](const std::array<int, D>& index) {
       const auto c = static_cast<std::size_t>(block.extent.at(index));
-      double sum = q.p[c];
-      for (std::size_t k = 0; k < D; ++k) sum += q.u[k][c];
+      double speed2 = 0.0;
+      for (std::size_t k = 0; k < D; ++k) speed2 += q.u[k][c] * q.u[k][c];
       const double rho = equations_.fluid.rho(q.p[c]);
-      if (std::isfinite(sum) && rho > 0.0) return;
+      if (std::isfinite(speed2) && std::isfinite(rho) && rho > 0.0) return;
       std::string cell, place;
       for (std::size_t d = 0; d < D; ++d) {
         char number[32];
@@ -199,12 +214,10 @@ void Stepper<D>::check(double dt) const {
         place += number;
       }
       char text[256];
-      std::snprintf(text, sizeof text,
-                    "t = %.6g s: density %.3g kg/m^3, p = %.3g Pa in block '%s' cell (%s) at (%s) m. ", time_,
-                    rho, q.p[c], block.name.c_str(), cell.c_str(), place.c_str());
-      char advice[160];
-      std::snprintf(advice, sizeof advice,
-                    "dt was %.3g s; try a smaller step, a smaller dual_time.pseudo_cfl, or the limiter.", dt);
+      std::snprintf(
+          text, sizeof text,
+          "t = %.6g s: density %.3g kg/m^3, p = %.3g Pa, |u| = %.3g m/s in block '%s' cell (%s) at (%s) m. ",
+          time_, rho, q.p[c], std::sqrt(speed2), block.name.c_str(), cell.c_str(), place.c_str());
       throw StabilityError(std::string(text) + advice);
     });
   }

@@ -3,6 +3,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "dual_time/step_solver.hpp"
@@ -42,7 +43,7 @@ class Stepper {
   Stepper(std::vector<Block<D>> blocks, const Equations<D>& equations, std::unique_ptr<StepSolver<D>> inner,
           const InnerTolerance& tolerance);
 
-  /// Sets the state everywhere from a formula, at time t; forgets older levels.
+  /// Sets the state everywhere from a formula, at time t; forgets older levels. throws StabilityError
   void initialise(const FlowFunction<D>& flow, double t);
   void set_source(SourceFunction<D> source) { source_ = std::move(source); }
 
@@ -86,7 +87,7 @@ class Stepper {
  private:
   BackwardDifference scheme(double dt) const;
   void set_history(const BackwardDifference& scheme, double t);
-  void check(double dt) const;
+  void check(const std::string& advice) const;
 
   std::vector<Block<D>> blocks_;
   Equations<D> equations_;

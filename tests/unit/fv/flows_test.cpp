@@ -73,6 +73,39 @@ TEST(ChannelTest, PoiseuilleIsAParabola) {
   }
 }
 
+TEST(OpenBoundaryTest, ADisturbanceLeavesAStreamUnderGravity) {
+  // inflow and outflow, or far field at both ends: what is left after 6 transits is the stream over
+  // still-water pressure; 1e-3 is what an outflow that holds the pressure gives back of a 20% disturbance
+  for (const auto& [in, out] : {std::pair{Condition::inflow, Condition::outflow},
+                                std::pair{Condition::far_field, Condition::far_field}}) {
+    Block<2> block = make_block<2>("flume", {24, 8}, {}, [](const std::array<int, 2>& i) {
+      return std::array<double, 2>{i[0] / 8.0, i[1] / 8.0};
+    });
+    close_with<2>(block, Condition::slip, {[](const auto&, double) { return 1.0; }, {}});
+    block.windows[0].condition = in;
+    block.windows[1].condition = out;
+    block.windows[3].condition = Condition::symmetry;
+    Equations<2> equations;
+    equations.fluid.gravity = {0.0, -9.81};
+    Stepper<2> stepper({block}, equations, std::make_unique<MultigridSolver<2>>(), tight());
+    stepper.initialise(
+        [&](const std::array<double, 2>& x, double) {
+          const double bump = std::exp(-20.0 * (std::pow(x[0] - 1.0, 2) + std::pow(x[1] - 0.5, 2)));
+          return PointState<2>{equations.fluid.hydrostatic(x), {1.0 + 0.2 * bump, 0.0}};
+        },
+        0.0);
+    stepper.tolerance().drop = 1e-3;
+    for (int step = 0; step < 90; ++step) stepper.advance(0.2);
+    const State<2>& q = stepper.state()[0];
+    for_each_index<2>({}, block.extent.n, [&](const std::array<int, 2>& index) {
+      const auto c = static_cast<std::size_t>(block.extent.at(index));
+      EXPECT_NEAR(q.u[0][c], 1.0, 1e-3);
+      EXPECT_NEAR(q.u[1][c], 0.0, 1e-3);
+      EXPECT_NEAR(q.p[c], stepper.blocks()[0].reference_pressure[c], 1.0);  // 1e-3 rho U^2
+    });
+  }
+}
+
 /// A smooth flow that solves nothing, and the sources that make it a solution: the rates of (3) by
 /// fourth-order differences of its exact fluxes (error 1e-10 of the terms).
 template <int D>

@@ -128,6 +128,18 @@ TEST(StepperTest, ANaNIsNamedWithPlaceAndAdvice) {
   }
 }
 
+TEST(StepperTest, AnInitialStateWithoutDensityIsRefused) {
+  Equations<2> equations;
+  equations.fluid.inverse_c2 = 0.01;
+  Stepper<2> stepper = periodic_box(4, equations);
+  EXPECT_THROW(stepper.initialise(
+                   [](const std::array<double, 2>&, double) {
+                     return PointState<2>{-1e6, {}};
+                   },
+                   0.0),
+               StabilityError);
+}
+
 TEST(StepperTest, StartingRatesComeFromTheFieldEquations) {
   // plane acoustic wave in a compressible fluid at rest: du/dt = -p_x/rho
   Equations<2> equations;
