@@ -36,6 +36,13 @@ void PresentParticles<D>::add(const Point<D>& x) {
 }
 
 template <int D>
+bool PresentParticles<D>::inside(const Point<D>& x) const {
+  for (std::size_t d = 0; d < D; ++d)
+    if (x[d] < box_.outer_lower[d] || x[d] > box_.outer_upper[d]) return false;
+  return true;
+}
+
+template <int D>
 void PresentParticles<D>::sort() {
   n_sorted_ = x_[0].size();
   if (n_sorted_ > 0) grid_.bin(x_, n_sorted_, reach_);
@@ -65,10 +72,11 @@ double PresentParticles<D>::room(const Point<D>& x) const {
 
 template <int D>
 InjectionPlace<D> injection_place(const FaceElement<D>& element, double excess_depth, double spacing,
-                                  const PresentParticles<D>& present, const Exterior& fv, double time,
-                                  std::int64_t& hint) {
+                                  bool far, const PresentParticles<D>& present, const Exterior& fv,
+                                  double time, std::int64_t& hint) {
   InjectionPlace<D> best;
   const auto consider = [&](const Point<D>& x) {
+    if (!present.inside(x)) return;
     const double room = present.room(x);
     if (room > best.room * (1.0 + 1e-12) && in_water<D>(x, fv, time, hint)) best = {x, room};
   };
@@ -77,31 +85,37 @@ InjectionPlace<D> injection_place(const FaceElement<D>& element, double excess_d
   consider(centre);
   if (best.room >= k_free * spacing) return best;
 
-  // Depths from a quarter to one and a quarter spacing, and half an element to either side.
-  constexpr double depths[] = {0.5, 0.75, 1.0, 0.25, 1.25};
-  constexpr int sides = D == 2 ? 3 : 9;
-  constexpr double offsets[] = {0.0, -0.5, 0.5};
-  for (double depth : depths)
-    for (int k = 0; k < sides; ++k) {
-      Point<D> x = element.centre;
-      x[element.axis] += element.inward * depth * spacing;
-      int rest = k;
-      for (std::size_t d = 0; d < D; ++d) {
-        if (d == element.axis) continue;
-        x[d] += 2.0 * offsets[rest % 3] * element.half[d];
-        rest /= 3;
+  // First about the element: depths of a quarter to one and a quarter spacing, half an element to either
+  // side. Where that is full, as at an edge that water enters by both of its faces: further in, a whole
+  // element aside.
+  constexpr double depths[] = {0.5, 0.75, 1.0, 0.25, 1.25, 1.5, 1.75, 2.0};
+  constexpr double offsets[] = {0.0, -0.5, 0.5, -1.0, 1.0};
+  const auto search = [&](int n_depths, int n_offsets) {
+    const int sides = D == 2 ? n_offsets : n_offsets * n_offsets;
+    for (int j = 0; j < n_depths; ++j)
+      for (int k = 0; k < sides; ++k) {
+        Point<D> x = element.centre;
+        x[element.axis] += element.inward * depths[j] * spacing;
+        int rest = k;
+        for (std::size_t d = 0; d < D; ++d) {
+          if (d == element.axis) continue;
+          x[d] += 2.0 * offsets[rest % n_offsets] * element.half[d];
+          rest /= n_offsets;
+        }
+        consider(x);
       }
-      consider(x);
-    }
+  };
+  search(5, 3);
+  if (far) search(8, 5);
   return best;
 }
 
 template class PresentParticles<2>;
 template class PresentParticles<3>;
-template InjectionPlace<2> injection_place<2>(const FaceElement<2>&, double, double,
+template InjectionPlace<2> injection_place<2>(const FaceElement<2>&, double, double, bool,
                                               const PresentParticles<2>&, const Exterior&, double,
                                               std::int64_t&);
-template InjectionPlace<3> injection_place<3>(const FaceElement<3>&, double, double,
+template InjectionPlace<3> injection_place<3>(const FaceElement<3>&, double, double, bool,
                                               const PresentParticles<3>&, const Exterior&, double,
                                               std::int64_t&);
 

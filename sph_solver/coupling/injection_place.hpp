@@ -23,6 +23,7 @@ class PresentParticles {
   /// Distance from x to the nearest, or to the image that a particle at x would have beyond a closed side;
   /// `reach` if none is nearer.
   double room(const Point<D>& x) const;
+  bool inside(const Point<D>& x) const;  ///< of the outer faces and the closed sides
 
  private:
   RegionBox<D> box_;
@@ -42,10 +43,11 @@ struct InjectionPlace {
 /// Where the particle of an element appears: in front of the element's centre, half a spacing inside, plus
 /// the depth that the mass beyond m0 has already travelled; so a steady inflow makes rows of even spacing
 /// although particles appear only at the ends of steps. If a particle is there already, the emptiest of a few
-/// places around. Places above FV's surface are none.
+/// places around. More and further ones if `far`. Places above FV's surface
+/// are none.
 template <int D>
 InjectionPlace<D> injection_place(const FaceElement<D>& element, double excess_depth, double spacing,
-                                  const PresentParticles<D>& present, const Exterior& fv, double time,
-                                  std::int64_t& hint);
+                                  bool far, const PresentParticles<D>& present, const Exterior& fv,
+                                  double time, std::int64_t& hint);
 
 }  // namespace littoral::sph

@@ -15,7 +15,7 @@ namespace {
 // Distance to the nearest particle that a new one must have [spacings]. Where water flows in, a place soon
 // empties: the mass waits, up to that of a second particle. Where it flows out there is only a particle due
 // because others left early; it comes where there is a void, else the mass waits for one.
-constexpr double k_room_inflow = 0.6;
+constexpr double k_room_inflow = 0.65;
 constexpr double k_room_outflow = 0.9;
 
 double power(double base, int exponent) {
@@ -125,10 +125,10 @@ bool ParticleExchange<D>::inject(Particles<D>& particles, const Exterior& fv, do
     while (elements_.mass(e) >= m0_) {
       // the mass beyond m0 entered after the particle was due: it has travelled so far since
       const double excess_depth = (elements_.mass(e) - m0_) / (eos_.density(eos_.p0) * elements_[e].area);
-      const auto place =
-          injection_place<D>(elements_[e], excess_depth, spacing_, around, fv, time, elements_.hint(e));
       const bool inflow = elements_.inflow_speed(e) > 0.0;
       const bool pressed = inflow && elements_.mass(e) >= 2.0 * m0_;
+      const auto place = injection_place<D>(elements_[e], excess_depth, spacing_, pressed, around, fv, time,
+                                            elements_.hint(e));
       if (place.room < (inflow ? k_room_inflow : k_room_outflow) * spacing_ && !pressed) break;
       if (place.room < 0.0) break;  // FV's water is not there yet
       NewParticle<D> particle;
