@@ -49,9 +49,10 @@ TargetCells<D>::TargetCells(const Stepper<D>& stepper, CellStatus status) {
       targets_.wants.push_back(coupler::wants_state);
     });
   }
-  rate_ = now_;
+  rate_ = before_ = now_;
   for (std::size_t b = 0; b < now_.size(); ++b) {
     take(stepper.state()[b], now_[b]);
+    take(stepper.state()[b], before_[b]);
     take(rates(stepper, b), rate_[b]);
   }
 }
@@ -102,36 +103,49 @@ std::vector<Imposed<D>> TargetCells<D>::received(const std::vector<Block<D>>& bl
 
 template <int D>
 void TargetCells<D>::accept(std::vector<Imposed<D>> values, double dt) {
+  const std::vector<Imposed<D>>& from = dt_before_ > 0.0 ? before_ : now_;
+  const double span = dt + dt_before_;
   for (std::size_t b = 0; b < now_.size(); ++b) {
-    const auto slope = [dt](Field& rate, const Field& before, const Field& after) {
-      for (std::size_t i = 0; i < rate.size(); ++i) rate[i] = (after[i] - before[i]) / dt;
+    const auto slope = [span](Field& rate, const Field& begin, const Field& end) {
+      for (std::size_t i = 0; i < rate.size(); ++i) rate[i] = (end[i] - begin[i]) / span;
     };
-    slope(rate_[b].p, now_[b].p, values[b].p);
-    for (std::size_t k = 0; k < D; ++k) slope(rate_[b].u[k], now_[b].u[k], values[b].u[k]);
+    slope(rate_[b].p, from[b].p, values[b].p);
+    for (std::size_t k = 0; k < D; ++k) slope(rate_[b].u[k], from[b].u[k], values[b].u[k]);
   }
+  before_ = std::move(now_);
   now_ = std::move(values);
+  dt_before_ = dt;
 }
 
 template <int D>
 void TargetCells<D>::save(support::CheckpointWriter& file) const {
+  file.put("targets/dt_before", dt_before_);
   for (std::size_t b = 0; b < now_.size(); ++b) {
-    std::size_t i = 0, j = 0;
-    for_each_field<D>(now_[b], [&](const Field& field) { file.put(key("value", b, i++), field); });
-    for_each_field<D>(rate_[b], [&](const Field& field) { file.put(key("rate", b, j++), field); });
+    const auto write = [&](const char* what, const Imposed<D>& values) {
+      std::size_t i = 0;
+      for_each_field<D>(values, [&](const Field& field) { file.put(key(what, b, i++), field); });
+    };
+    write("now", now_[b]);
+    write("before", before_[b]);
+    write("rate", rate_[b]);
   }
 }
 
 template <int D>
 void TargetCells<D>::load(const support::CheckpointReader& file) {
+  dt_before_ = file.number("targets/dt_before");
   for (std::size_t b = 0; b < now_.size(); ++b) {
-    const auto read = [&](Field& field, const std::string& name) {
-      const std::size_t n = field.size();
-      field = file.doubles(name);
-      if (field.size() != n) throw IoError(name + ": the checkpoint has other fringe cells than this run");
+    const auto read = [&](const char* what, Imposed<D>& values) {
+      std::size_t i = 0;
+      for_each_field<D>(values, [&](Field& field) {
+        field = file.doubles(key(what, b, i++));
+        if (field.size() != values.cell.size())
+          throw IoError("the checkpoint has other fringe or forced cells than this run");
+      });
     };
-    std::size_t i = 0, j = 0;
-    for_each_field<D>(now_[b], [&](Field& field) { read(field, key("value", b, i++)); });
-    for_each_field<D>(rate_[b], [&](Field& field) { read(field, key("rate", b, j++)); });
+    read("now", now_[b]);
+    read("before", before_[b]);
+    read("rate", rate_[b]);
   }
 }
 

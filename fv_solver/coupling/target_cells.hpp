@@ -20,8 +20,10 @@ class TargetCells {
   coupler::Targets& targets() { return targets_; }
   const coupler::Targets& targets() const { return targets_; }
 
-  /// Values at time() + dt on a straight line through the last two; before there are two, along the cells'
-  /// own rates. One entry a block.
+  /// Values at time() + dt along a straight line: through the last and the last but two, whose slope does not
+  /// see what alternates from window to window (a line through neighbours triples it, and `predicted` with
+  /// ten substeps a window then feeds the column's acoustic mode). At the start along the cells' own rates.
+  /// One entry a block.
   std::vector<Imposed<D>> extrapolated(double dt) const;
   /// Puts samples in the order of the targets. Coupling I (`required`): every one must be ok.
   /// throws CouplingError naming cell, place, status and coverage
@@ -35,7 +37,9 @@ class TargetCells {
 
  private:
   coupler::Targets targets_;
-  std::vector<Imposed<D>> now_, rate_;  // values and their time derivatives
+  std::vector<Imposed<D>> now_, rate_;  // values and their slope in time
+  std::vector<Imposed<D>> before_;      // values one window ago
+  double dt_before_ = 0.0;              // [s] that window's length; 0: there was none
 };
 
 }  // namespace littoral::fv
