@@ -39,35 +39,34 @@ def interpolate(x, values, targets, radius):
     return result
 
 
-def jumps(run, below=2.0, scale_p=None, scale_u=None, moments_used=8):
-    """Difference of both sides in the rows of cells within `below` cells under the interface.
+def differences(moment, face, below=2.0):
+    """p and velocity of the particles less those of the cells, in the rows within `below` cells under z = face.
 
     There the particles are nearly free (the outer part of their blending layer follows the grid) and the cells are
-    solved for, so that both describe the same water by their own means. Rms over the last `moments_used` outputs,
-    over rho g a and a omega of the scene's reference wave, or over the scales given.
+    solved for, so that both describe the same water by their own means.
     """
-    region = run.summary["regions"][0]
-    face = region["lower"][2]
+    dz = np.diff(np.unique(np.round(moment.fv.x[:, 2], 9))).min()
+    rows = moment.computed & (moment.fv.x[:, 2] > face - below * dz) & (moment.fv.x[:, 2] < face)
+    # whole neighbourhoods only: no particles are output beyond a periodic end
+    rows &= np.abs(moment.fv.x[:, 0] - moment.fv.x[:, 0].mean()) < 0.5 * (np.ptp(moment.fv.x[:, 0]) - 6 * dz)
+    targets = moment.fv.x[rows]
+    near = np.abs(moment.sph.x[:, 2] - face) < (below + 4) * dz
+    x = moment.sph.x[near]
+    dp = interpolate(x, moment.sph.p[near], targets, 3 * dz) - moment.fv.p[rows]
+    du = [interpolate(x, moment.sph.u[near, axis], targets, 3 * dz) - moment.fv.u[rows, axis] for axis in (0, 2)]
+    if not np.isfinite(dp).all():
+        raise UserError(f"t = {moment.time:g} s: cells at the interface without particles around them")
+    return dp, np.concatenate(du)
+
+
+def jumps(run, below=2.0, scale_p=None, scale_u=None, moments_used=8):
+    """Rms of the differences at the lower face over the last outputs, over rho g a and a omega (or the scales given)."""
     wave = run.summary.get("reference") or {}
     scale_p = scale_p or wave["density"] * wave["gravity"] * wave["amplitude"]
     scale_u = scale_u or wave["amplitude"] * np.sqrt(wave["gravity"] * wave["wavenumber"])
-    dp, du = [], []
-    for moment in moments(run)[-moments_used:]:
-        heights = np.unique(np.round(moment.fv.x[:, 2], 9))
-        dz = np.diff(heights).min()
-        rows = moment.computed & (moment.fv.x[:, 2] > face - below * dz) & (moment.fv.x[:, 2] < face)
-        targets = moment.fv.x[rows]
-        middle = np.ptp(moment.fv.x[:, 0]) - 6 * dz  # whole neighbourhoods only: no particles beyond the periodic end
-        targets_in = np.abs(targets[:, 0] - moment.fv.x[:, 0].mean()) < 0.5 * middle
-        targets = targets[targets_in]
-        near = np.abs(moment.sph.x[:, 2] - face) < (below + 4) * dz
-        x = moment.sph.x[near]
-        dp.append(interpolate(x, moment.sph.p[near], targets, 3 * dz) - moment.fv.p[rows][targets_in])
-        for axis in (0, 2):
-            du.append(interpolate(x, moment.sph.u[near, axis], targets, 3 * dz) - moment.fv.u[rows][targets_in, axis])
-    dp, du = np.concatenate(dp), np.concatenate(du)
-    if not np.isfinite(dp).all():
-        raise UserError(f"{run.out}: cells at the interface without particles around them")
+    face = run.summary["regions"][0]["lower"][2]
+    both = [differences(moment, face, below) for moment in moments(run)[-moments_used:]]
+    dp, du = (np.concatenate(parts) for parts in zip(*both))
     return {"p": signals.rms(dp) / scale_p, "u": signals.rms(du) / scale_u, "p_mean": float(dp.mean()) / scale_p}
 
 
