@@ -31,7 +31,9 @@ struct Channel::Wait {
 
   /// Between two looks at what is awaited; false: give up.
   bool go_on() {
+    if (channel.abort_) throw CouplingError(channel.partner_ + " aborts the job: " + channel.abort_->reason);
     channel.look_for_notice();
+    if (channel.abort_) return true;  // what was sent before it may be here by now: look once more
     if (channel.farewell_) {
       farewell_at = std::min(farewell_at, patience.elapsed());
       if (patience.elapsed() > farewell_at + k_after_farewell) return false;
@@ -58,8 +60,7 @@ void Channel::look_for_notice() {
   Bytes message(static_cast<std::size_t>(count));
   MPI_Mrecv(message.data(), count, MPI_CHAR, &handle, &status);
   const Notice notice = unpack_notice(message.data(), message.size(), who(status.MPI_SOURCE));
-  if (notice.kind == Kind::abort) throw CouplingError(partner_ + " aborts the job: " + notice.reason);
-  farewell_ = notice;
+  (notice.kind == Kind::abort ? abort_ : farewell_) = notice;
 }
 
 void Channel::give_up(const std::string& awaited, const std::vector<int>& silent, double seconds) const {

@@ -63,6 +63,7 @@ class Channel {
   enum class Progress : std::uint8_t { awaited, asked, arriving, here };
   std::vector<Progress> progress_;
   std::optional<Notice> farewell_;  // goodbye or leaving, seen while waiting for something else
+  std::optional<Notice> abort_;
 };
 
 /// Tells all ranks of the partner; best effort, never throws, at most a second.

@@ -176,6 +176,11 @@ void Job::compare(const Contract& mine, double deadline) const {
     channel.complete_sends(what);
     const Contract theirs = Contract::unpack(in.data() + sizeof(Header), in.size() - sizeof(Header));
     const auto mismatches = mine.compare(theirs);
+    out.resize(sizeof(Header));  // nobody ends the job before both have compared
+    seal(out, what, mismatches.size());
+    channel.start_send(0, out);
+    channel.receive(0, what, in);
+    channel.complete_sends(what);
     if (!mismatches.empty())
       verdict = "the programs do not agree on what they compute:\n" +
                 describe(mismatches, impl_->program, impl_->partner) + "Both must read the same scene";
@@ -218,12 +223,16 @@ int world_size() {
 }
 
 void end_world(MPI_Comm intercomm, const std::string& shown, const std::string& reason) {
-  // the launcher kills everybody at the first abort: those who were told must have had time to print
-  constexpr std::chrono::milliseconds k_time_to_print{300};
   if (!shown.empty()) std::fprintf(stderr, "%s\n", shown.c_str());
   std::fflush(nullptr);
   send_notice(intercomm, {Kind::abort, reason});
-  std::this_thread::sleep_for(k_time_to_print);
+  // The launcher kills everybody at the first abort, so the partner must have printed before. Its own notice
+  // says that it has; a partner that computes will not answer.
+  Patience patience(1.0);
+  for (int answered = 0; intercomm != MPI_COMM_NULL && !answered && !patience.expired(); patience.pause())
+    MPI_Iprobe(MPI_ANY_SOURCE, k_tag_notice, intercomm, &answered, MPI_STATUS_IGNORE);
+  std::this_thread::sleep_for(
+      std::chrono::milliseconds(100));  // for the launcher to forward what was printed
   MPI_Abort(MPI_COMM_WORLD, 1);
   std::abort();
 }

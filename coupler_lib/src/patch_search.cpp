@@ -215,6 +215,9 @@ void PatchSearch<A>::search(const Point& x, Candidate<A>& best) const {
       stack[depth++] = static_cast<std::size_t>(&node - tree_.data()) + 1;
     } else {
       for_each(node, [&](const Index& index) { consider(x, at(index), best); });
+      // well inside a cell that no other patch meets: there is no better one
+      if (best.kind == Candidate<A>::Kind::inside && best.low_faces == 0 && !(flag_[best.cell] & is_shared))
+        return;
     }
   }
 }

@@ -15,7 +15,7 @@ namespace {
 
 // Where one cause stops all ranks (a wrong file), the first to speak is rank 0; it ends the job before the
 // others repeat it. Where only one of the others stops, this is how much later it speaks.
-constexpr std::chrono::milliseconds k_precedence{700};
+constexpr std::chrono::milliseconds k_precedence{1500};
 
 struct Place {
   std::int64_t window;

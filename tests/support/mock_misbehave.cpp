@@ -27,7 +27,10 @@ bool misbehave_at_begin(const Script& script, std::int64_t window) {
 bool misbehave_in_message(const Script& script, const Job& job, bool donors, const Window& window,
                           std::size_t count) {
   const std::string& mode = script.misbehave;
-  if (window.index != script.at) return false;
+  const std::vector<std::string> modes{"wrong-window",  "wrong-time",     "wrong-kind",    "wrong-count",
+                                       "truncated",     "oversized",      "header-only",   "random-bytes",
+                                       "short-horizon", "rest-truncated", "rest-oversized"};
+  if (window.index != script.at || std::find(modes.begin(), modes.end(), mode) == modes.end()) return false;
   Expected content;
   content.kind = donors ? Kind::donors : Kind::samples;
   content.epoch = 1;
@@ -65,10 +68,6 @@ bool misbehave_in_message(const Script& script, const Job& job, bool donors, con
              k_tag_rest, job.intercomm());
     return true;
   }
-  const std::vector<std::string> modes{"wrong-window", "wrong-time",   "wrong-kind",
-                                       "wrong-count",  "truncated",    "oversized",
-                                       "header-only",  "random-bytes", "short-horizon"};
-  if (std::find(modes.begin(), modes.end(), mode) == modes.end()) return false;
   MPI_Send(message.data(), static_cast<int>(message.size()), MPI_CHAR, 0, k_tag_message, job.intercomm());
   return true;
 }
