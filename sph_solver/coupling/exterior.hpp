@@ -6,6 +6,7 @@
 
 #include "littoral/coupler/donor_search.hpp"
 #include "littoral/coupler/fields.hpp"
+#include "littoral/support/scene.hpp"
 
 namespace littoral::sph {
 
@@ -24,7 +25,7 @@ class Exterior {
 /// The exterior out of donor cells: trilinear in space, linear in time (24).
 class DonorField final : public Exterior {
  public:
-  explicit DonorField(int dimension) : dimension_(dimension) {}
+  explicit DonorField(const support::Scene& scene);
   /// A new geometry (epoch): the search is set up anew and every hint is void.
   void set_geometry(const coupler::DonorGeometry& geometry);
   coupler::DonorValues& values() { return values_; }
@@ -35,7 +36,13 @@ class DonorField final : public Exterior {
   bool with_phi() const override { return !values_.phi.empty(); }
 
  private:
+  /// x brought into the domain's period: particles are wrapped when their lists are built, not every stage,
+  /// and a stream carries them further than the ghost cells beyond a periodic side reach.
+  coupler::Vec3 wrapped(const coupler::Vec3& x) const;
+
   int dimension_;
+  coupler::Vec3 lower_;   // [m] of the domain
+  coupler::Vec3 period_;  // [m] 0 where the domain does not repeat itself
   std::unique_ptr<coupler::DonorSearch> search_;
   coupler::DonorValues values_;
 };

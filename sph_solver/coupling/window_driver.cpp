@@ -14,7 +14,7 @@ WindowDriver<D>::WindowDriver(const support::Scene& scene, const CouplingConfig&
       sample_rules_{config.samples, numerics.kernel_radius, scene.has_free_surface()},
       spacing_(numerics.spacing),
       phi_band_(config.phi_band * numerics.spacing),
-      donors_(D),
+      donors_(scene),
       hooks_(Layers<D>::from_scene(scene, numerics.kernel_radius), numerics, donors_, config.removal) {}
 
 template <int D>
