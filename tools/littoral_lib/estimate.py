@@ -54,13 +54,20 @@ def predict(scene, configs):
         particles = region_volume(scene) / dx ** len(axes(scene))
         memory += particles * PARTICLE_BYTES
         lines.append(f"particles: at most {particles:.0f} (spacing {dx:g} m)")
-        radius = find(configs["sph"], ("kernel_radius",))
+        spacings = find(configs["sph"], ("kernel_radius",))
+        radius = (4.0 if len(axes(scene)) == 2 else 2.7) if spacings in (None, "auto") else float(spacings)
+        cfl = find(configs["sph"], ("cfl",)) or 0.375
         c = scene.value("fluid.sound_speed", 0.0)
         end = scene.value("time.end", 0.0)
         if c and math.isfinite(c) and end:
-            width = evaluate(radius, constants) if radius not in (None, "auto") else 4 * dx
-            width = width * dx if width >= 1.5 else width  # given in spacings or in metres
-            lines.append(f"steps: about {end * c / (0.5 * width):.0f} of SPH (0.5 R / c each) to t = {end:g} s")
+            dt = cfl * radius * dx / c
+            window = scene.value("coupling.substeps", 1.0) * dt if len(scene.programs) > 1 else dt
+            given = (scene.data.get("coupling") or {}).get("dt")
+            if given not in (None, "auto"):
+                window = evaluate(given, constants)
+                dt = window / math.ceil(window / dt)
+            lines.append(f"steps: about {end / dt:.0f} of {dt:.3g} s to t = {end:g} s"
+                         + (f", in {end / window:.0f} windows" if len(scene.programs) > 1 else ""))
     cells = 0
     for block in find(configs.get("fv", {}), ("blocks",)) or []:
         counts = block.get("cells") if isinstance(block, dict) else None

@@ -26,10 +26,13 @@ def run_ctest(case_file, case):
     line = ["ctest", "--test-dir", str(build), "-R", case_file.ctest, "--no-tests=error", "--output-on-failure"]
     done = subprocess.run(line, capture_output=True, text=True, check=False)
     (case.out / "ctest.log").write_text(done.stdout + done.stderr, encoding="utf-8")
+    if "_NOT_BUILT" in done.stdout or "Could not find executable" in done.stdout:
+        raise UserError(f"its unit tests are not built; run cmake --build {build}")
     found = re.search(r"tests passed, (\d+) tests failed out of (\d+)", done.stdout)
     failed, total = (int(found.group(1)), int(found.group(2))) if found else (0, 0)
-    case.metric("unit tests found", total, at_least=1)
-    case.metric("unit tests failed", failed, at_most=0)
+    if total == 0:
+        raise UserError(f"no unit test matches {case_file.ctest} in {build} (built with LITTORAL_TESTS=OFF?)")
+    case.metric(f"unit tests failed, of {total}", failed, at_most=0)
     if done.returncode != 0 and not failed and total:
         case.metric("ctest exit status", done.returncode, at_most=0)
 
