@@ -11,7 +11,7 @@ namespace littoral::coupler {
 
 namespace {
 
-constexpr double k_spin = 250e-6;           // [s] what a partner needs to pack some ten thousand points
+constexpr double k_spin = 1e-3;  // [s] what a partner needs to unpack and pack a hundred thousand points
 constexpr double k_shortest_sleep = 20e-6;  // [s]
 constexpr double k_longest_sleep = 1e-3;    // [s]
 
