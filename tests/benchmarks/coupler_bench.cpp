@@ -1,6 +1,6 @@
 // One window's exchange between two programs of one rank each, beside the raw transfer of the same bytes in
 // the same run, and the processor time a waiting program burns.
-//   mpirun -n 1 coupler_bench sph : -n 1 coupler_bench fv
+//   mpirun -n 2 coupler_bench      or      mpirun -n 1 coupler_bench sph : -n 1 coupler_bench fv
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -202,7 +202,13 @@ int run_sph(Job& job) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const Role role = argc > 1 && std::strcmp(argv[1], "fv") == 0 ? Role::fv : Role::sph;
+  Role role = argc > 1 && std::strcmp(argv[1], "fv") == 0 ? Role::fv : Role::sph;
+  if (argc == 1) {  // one program on two ranks: the second plays the grid
+    int rank = 0, provided = 0;
+    MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    role = rank == 1 ? Role::fv : Role::sph;
+  }
   return run_program(argc, argv, role, "benchmark",
                      [role](Job& job, int, char**) { return role == Role::fv ? run_fv(job) : run_sph(job); });
 }
