@@ -9,8 +9,8 @@ RULES = ("crossing", "nearest")
 
 
 def exact_pressure(t, z):
-    eta = S * np.sin(OMEGA * t)
-    return RHO * (G - S * OMEGA**2 * np.sin(OMEGA * t)) * (eta - z)
+    eta = S * np.cos(OMEGA * t)
+    return RHO * (G - S * OMEGA**2 * np.cos(OMEGA * t)) * (eta - z)
 
 
 def measure(run):
@@ -22,7 +22,7 @@ def measure(run):
         near = np.abs(moment.sph.x[:, 2] - face) < 4 * DX
         error.append(moment.sph.p[near].mean() - exact_pressure(moment.time, moment.sph.x[near, 2]).mean())
         spacing.append(coupled.smallest_spacing(moment.sph.x, WIDTH) / DX)
-        expected = WIDTH * (S * np.sin(OMEGA * moment.time) - face + 8 * DX) / DX**2
+        expected = WIDTH * (S * np.cos(OMEGA * moment.time) - face + 8 * DX) / DX**2
         rows.append((len(moment.sph.x) - expected) / (WIDTH / DX))
     mismatch, error = np.array(mismatch), np.array(error) / (RHO * G)
     return {"mismatch": signals.rms(mismatch), "growth": signals.growth(mismatch), "error": signals.rms(error),
