@@ -16,17 +16,27 @@ def exact_pressure(t, z):
 def measure(run):
     """Pressure mismatch at the interface, error against the exact pressure, number and spacing of particles."""
     face = run.summary["regions"][0]["lower"][2]
-    mismatch, error, spacing, rows = [], [], [], []
+    time, mismatch, error, spacing, rows = [], [], [], [], []
     for moment in coupled.moments(run)[1:]:
         mismatch.append(signals.rms(coupled.differences(moment, face)[0]) / (RHO * G))
+        time.append(moment.time)
         near = np.abs(moment.sph.x[:, 2] - face) < 4 * DX
         error.append(moment.sph.p[near].mean() - exact_pressure(moment.time, moment.sph.x[near, 2]).mean())
         spacing.append(coupled.smallest_spacing(moment.sph.x, WIDTH) / DX)
         expected = WIDTH * (S * np.cos(OMEGA * moment.time) - face + 8 * DX) / DX**2
         rows.append((len(moment.sph.x) - expected) / (WIDTH / DX))
-    mismatch, error = np.array(mismatch), np.array(error) / (RHO * G)
-    return {"mismatch": signals.rms(mismatch), "growth": signals.growth(mismatch), "error": signals.rms(error),
-            "error growth": signals.growth(error), "spacing": min(spacing), "rows": max(np.abs(rows))}
+    time, mismatch, error = np.array(time), np.array(mismatch), np.array(error) / (RHO * G)
+    # what rings is what is left without the mean over a period of the mode, 4H/c = 0.4 s, to either side
+    ringing = np.array([e - error[np.abs(time - t) < 0.45].mean() for t, e in zip(time, error)])
+    return {"mismatch": signals.rms(mismatch), "growth": growth(mismatch), "level": error[-len(error) // 4:].mean(),
+            "ringing": signals.rms(ringing), "its growth": growth(ringing), "spacing": min(spacing),
+            "rows": max(np.abs(rows))}
+
+
+def growth(signal):
+    """Rms of the last quarter over that of the second: the run starts exact, on a lattice that leaves in the first."""
+    n = len(signal) // 4
+    return signals.rms(signal[-n:]) / signals.rms(signal[n:2 * n])
 
 
 def check(case):
@@ -37,7 +47,7 @@ def check(case):
                            set=[f"scene.coupling.substeps={substeps}", f"sph.coupling.removal={rule}"])
             if run.status != 0:
                 case.holds(f"{rule}, M={substeps}: runs to its end", False)
-                rows.append([rule, substeps, "failed"] + [""] * 6 + [run.seconds])
+                rows.append([rule, substeps, "failed"] + [""] * 7 + [run.seconds])
                 continue
             m = measure(run)
             ledger = coupled.ledger(run)
@@ -47,8 +57,9 @@ def check(case):
                 continue  # the paper's rule is measured beside the default, which is the one that must hold
             case.metric(f"M={substeps}: pressure mismatch / (rho g H)", m["mismatch"], below=1e-3)
             case.metric(f"M={substeps}: growth of the mismatch", m["growth"], below=1.5)
-            case.metric(f"M={substeps}: growth of the pressure error", m["error growth"], below=1.5)
+            case.metric(f"M={substeps}: ringing of the column / (rho g H)", m["ringing"], below=1e-3)
+            case.metric(f"M={substeps}: growth of the ringing", m["its growth"], below=1.5)
             case.metric(f"M={substeps}: smallest spacing / dx", m["spacing"], above=0.6)
             case.metric(f"M={substeps}: number of particles, in rows", m["rows"], at_most=1.0)
-    case.table("Piston", ["removal", "M", "p mismatch", "growth", "p error", "its growth", "spacing", "rows", "ledger",
+    case.table("Piston", ["removal", "M", "p mismatch", "growth", "p level", "ringing", "growth", "spacing", "rows", "ledger",
                           "wall s"], rows)
