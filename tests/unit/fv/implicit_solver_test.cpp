@@ -133,8 +133,8 @@ Outcome run_column(const std::array<int, D>& cells, double aspect, double dt, in
 TEST(ImplicitSolverTest, StandingWaveColumnConvergesInFewCycles) {
   const double dx = 2.0 / 50;
   for (const double aspect : {1.0, 5.0})
-    for (const int m : {1, 2, 5, 10}) {
-      const Outcome o = run_column<2>({50, 25}, aspect, m * 0.15 * dx, 12, 10.0);
+    for (const int m : {1, 10}) {
+      const Outcome o = run_column<2>({50, 25}, aspect, m * 0.15 * dx, 8, 10.0);
       EXPECT_LE(o.mean_cycles, 8.0) << "aspect " << aspect << " M " << m;
       EXPECT_LT(o.error, 0.02) << "aspect " << aspect << " M " << m;  // the exact wave is linear, ka = .16
     }
