@@ -167,13 +167,15 @@ void Channel::receive(const std::vector<int>& ranks, const std::vector<Expected>
   Wait wait(*this);
   try {
     for (std::size_t missing = n; missing > 0;) {
+      outbox_.progress();  // the partner may be waiting for our message before it looks after its own
       for (std::size_t i = 0; i < n; ++i)
         if (progress_[i] != Progress::here && advance(i, ranks[i], expected[i], buffers[i], headers[i]))
           --missing;
       if (missing == 0) break;
       const bool arriving =
           std::find(progress_.begin(), progress_.end(), Progress::arriving) != progress_.end();
-      if (arriving && !wait.patience.expired()) continue;  // bytes are moving: they need us
+      // bytes are moving: they need us
+      if ((arriving || outbox_.moving()) && !wait.patience.expired()) continue;
       if (wait.go_on()) continue;
       std::vector<int> silent;
       for (std::size_t i = 0; i < n; ++i)
@@ -199,6 +201,7 @@ Header Channel::receive(int rank, const Expected& expected, Bytes& buffer) {
 Notice Channel::await_farewell() {
   Wait wait(*this);
   for (;;) {
+    outbox_.progress();
     look_for_notice();
     if (farewell_) return *farewell_;
     if (!wait.go_on()) give_up("its goodbye", {0}, deadline_);

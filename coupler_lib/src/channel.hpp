@@ -24,7 +24,8 @@ class Channel {
   int size() const { return size_; }
   double deadline() const { return deadline_; }
 
-  /// Starts a message; its bytes must stay until complete_sends().
+  /// Starts a message; its bytes must stay until complete_sends(). It moves on in every wait of this channel,
+  /// so two ranks may both send before they receive.
   void start_send(int rank, const Bytes& message);
   /// Large messages move only while the sender looks after them: nobody computes with a send under way.
   void complete_sends(const Expected& what);

@@ -27,6 +27,7 @@ struct Script {
   int stop_at = -1;            // window before which this program asks for the end
   int region_changes_at = -1;  // window before which it asks for a new epoch
   bool wants_particles = false;
+  int entries = 0;    // more entries in the contract, so that it no longer goes in one piece
   double work = 0.0;  // [s] pretends to compute so long in each window
 
   std::string misbehave;  // empty: plays by the rules

@@ -30,6 +30,7 @@ Script parse(int argc, char** argv) {
       {"--stop-at", integer(s.stop_at)},
       {"--region-changes-at", integer(s.region_changes_at)},
       {"--particles", flag(s.wants_particles)},
+      {"--entries", integer(s.entries)},
       {"--work", number(s.work)},
       {"--misbehave", word(s.misbehave)},
       {"--at", integer(s.at)},
@@ -60,6 +61,8 @@ Contract contract_of(const Script& script) {
   contract.set("dimension", static_cast<double>(script.dimension)).set("fluid.density", 1000.0);
   const bool wrong = script.misbehave == "wrong-scene";
   contract.set("gravity.z", wrong ? -1.62 : -9.81).set("coupling.kind", wrong ? "forced" : "imposed");
+  for (int i = 0; i < script.entries; ++i)
+    contract.set("constants.number_" + std::to_string(i), static_cast<double>(i));
   return contract;
 }
 
