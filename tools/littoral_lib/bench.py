@@ -7,7 +7,8 @@ from . import launch, programs
 from .errors import UserError, unknown
 from .scene import ROOT
 
-KNOWN = {"coupler": 2, "sph": 1, "fv": 1}  # name: ranks of its job
+# name: arguments of each program of its job, one rank each
+KNOWN = {"coupler": (["sph"], ["fv"]), "sph": ([],), "fv": ([],)}
 
 
 def command(args):
@@ -25,7 +26,8 @@ def command(args):
             print(f"{name}_bench: not built")
             continue
         line = ["mpirun"] + (["--bind-to", "none", "--oversubscribe"] if launch.is_open_mpi() else [])
-        line += ["-n", str(KNOWN[name]), program]
+        for index, arguments in enumerate(KNOWN[name]):
+            line += ([":"] if index else []) + ["-n", "1", program, *arguments]
         print("$", " ".join(line), flush=True)
         folder = pathlib.Path(args.out or ROOT / "out" / "bench" / name)
         folder.mkdir(parents=True, exist_ok=True)
