@@ -199,11 +199,12 @@ def command(args):
     time = args.time
     if picture.moments and time is None:
         time = picture.moment()
-    overview(picture, time, folder / "overview.png")
-    pictures = [folder / "overview.png"]
+    pictures = []
     if picture.moments:
         profiles(picture, time, folder / "profiles.png")
         pictures.append(folder / "profiles.png")
+    overview(picture, time, folder / "overview.png")
+    pictures.append(folder / "overview.png")
     if picture.wave:
         print(compare.table(picture.wave.measures()))
     for path in pictures:
