@@ -74,6 +74,8 @@ def build_parser():
     verify.add_argument("--group", choices=("sph", "fv", "fv_surface", "coupled"), action="append",
                         help="only this group; repeatable")
     verify.add_argument("--out", help="folder of the runs and verdicts (default: out/verify)")
+    verify.add_argument("--table", action="store_true",
+                        help="print the kept verdicts as a Markdown table, without running anything")
     verify.add_argument("--verbose", "-v", action="store_true", help="every metric, and the programs' progress")
 
     bench = sub.add_parser("bench", help="run benchmarks", description="Run coupler_bench, sph_bench, fv_bench.")

@@ -92,6 +92,28 @@ def tell(verdict, case, verbose):
     sys.stdout.flush()
 
 
+def kept_results(chosen, out):
+    """Markdown table of the verdicts kept under `out`, one row a case with its tightest gates."""
+    lines = ["| id | case | metric | measured | gate | verdict | date |", "|---|---|---|---|---|---|---|"]
+    for case_file in chosen:
+        path = pathlib.Path(out) / case_file.name / "verdict.json"
+        if not path.is_file():
+            lines.append(f"| {', '.join(case_file.ids)} | {case_file.name} | | | | not run | |")
+            continue
+        verdict = json.loads(path.read_text(encoding="utf-8"))
+        gated = [m for m in verdict["metrics"] if m["gate"]]
+        shown = sorted(gated, key=lambda m: (m["verdict"] == "pass", -m.get("use", 0.0)))[:3]
+        if verdict["error"]:
+            lines.append(f"| {', '.join(verdict['ids'])} | {verdict['name']} | {verdict['error'].splitlines()[0]} | | "
+                         f"| error | {verdict['date']} |")
+        for i, metric in enumerate(shown):
+            value = metric["value"] if isinstance(metric["value"], str) else f"{metric['value']:.4g} {metric['unit']}"
+            first = f"| {', '.join(verdict['ids'])} | {verdict['name']}" if i == 0 else "| | "
+            lines.append(f"{first} | {metric['name']} | {value.strip()} | {metric['gate']} | {metric['verdict']} | "
+                         f"{verdict['date'] if i == 0 else ''} |")
+    return "\n".join(lines)
+
+
 def command(args):
     chosen = cases.select(cases.load_all(), args.names, args.tier, args.group)
     if args.list:
@@ -100,6 +122,9 @@ def command(args):
         return 0
     if not chosen:
         raise UserError("no case in this selection; littoral verify --list shows them all")
+    if args.table:
+        print(kept_results(chosen, args.out or ROOT / "out" / "verify"))
+        return 0
     verdicts = []
     for case_file in chosen:
         verdict, case = run_case(case_file, args.out or ROOT / "out" / "verify", args.bin, args.verbose)

@@ -96,6 +96,16 @@ class CaseFolders(unittest.TestCase):
         self.assertTrue(verdict["passed"])
         self.assertTrue((self.folder / "out" / "good" / "verdict.json").is_file())
 
+    def test_kept_verdicts_make_a_table(self):
+        self.add("good", "{ids: [C9], group: sph, tier: U, check: check.py}",
+                 "def check(case):\n    case.metric('far', 1, below=9)\n    case.metric('near', 1, below=1.5, unit='s')")
+        case_file = cases.CaseFile(self.folder / "good")
+        self.assertIn("not run", verify.kept_results([case_file], self.folder / "out"))
+        verify.run_case(case_file, self.folder / "out")
+        table = verify.kept_results([case_file], self.folder / "out").splitlines()
+        self.assertIn("| C9 | good | near | 1 s | < 1.5 | pass |", table[2])
+        self.assertIn("far", table[3])
+
     def test_every_case_of_the_tree_loads(self):
         for case in cases.load_all():
             self.assertTrue(case.title)

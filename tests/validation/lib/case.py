@@ -24,6 +24,7 @@ class Metric:
     def as_dict(self):
         value = self.value if math.isfinite(self.value) else str(self.value)
         return {"name": self.name, "value": value, "unit": self.unit, "gate": self.gate,
+                "use": self.use if math.isfinite(self.use) else 1e9,
                 "verdict": "pass" if self.passed else "miss"}
 
 
@@ -154,7 +155,10 @@ class Case:
 
     def holds(self, name, condition):
         """A claim that is true (1) or not (0)."""
-        return self.metric(name, 1.0 if condition else 0.0, at_least=1.0)
+        value = self.metric(name, 1.0 if condition else 0.0, at_least=1.0)
+        if condition:
+            self.metrics[-1].use = 0.0  # a claim that holds is never the tightest metric of a case
+        return value
 
     def table(self, title, header, rows):
         """A table of the case: kept in verdict.json, written as OUT/<case>/<title>.md, shown by --verbose."""
