@@ -135,7 +135,7 @@ void FvConfig::bind(Binder& b) {
   b.key("forcing_constant", forcing_constant)
       .exclusive_min(0)
       .doc("K of the forcing in overlapped cells; O(10).");
-  partner.bind(b);
+  partner.bind(b, coupler::Role::fv);
   b.section("source", "Sources per volume, formulas of x, y, z, t.", [&] {
     b.key("mass", source.mass).unit("kg/(m^3 s)").doc("Of the mass balance.");
     b.key("u", source.u).unit("N/m^3").doc("Force along x.");

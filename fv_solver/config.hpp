@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "boundary/window.hpp"
-#include "coupling/partner_config.hpp"
 #include "littoral/support/config.hpp"
+#include "littoral/support/partner_config.hpp"
 #include "littoral/support/scene.hpp"
 #include "physics/equations.hpp"
 
@@ -87,7 +87,7 @@ struct FvConfig {
 
   Limiter limiter = Limiter::none;
   double forcing_constant = 10.0;  // K of (21)
-  PartnerConfig partner;
+  support::PartnerConfig partner;
 
   struct SourceTerm {  // per volume
     std::optional<support::Formula> mass, u, v, w;

@@ -4,11 +4,13 @@
 #include <memory>
 #include <string>
 
+#include "checks.hpp"
 #include "companion.hpp"
 #include "coupling/coupled.hpp"
-#include "coupling/partner_choice.hpp"
 #include "littoral/error.hpp"
 #include "littoral/support/options.hpp"
+#include "littoral/support/partner_choice.hpp"
+#include "littoral/support/run_plan.hpp"
 #include "setup.hpp"
 #include "solver.hpp"
 #include "version.hpp"
@@ -22,9 +24,8 @@ template <int D>
 std::unique_ptr<Companion<D>> companion_of(coupler::Job& job, const ProgramOptions& options,
                                            const FvConfig& config, const support::Scene& scene,
                                            const Solver<D>& solver) {
-  auto partner =
-      choose_partner(job, scene, config.partner, run_plan(scene, solver.start_time(), solver.start_window()),
-                     options.record, options.replay);
+  const auto plan = support::run_plan(scene, solver.start_time(), solver.start_window());
+  auto partner = support::choose_sph_partner(job, scene, config.partner, options, plan);
   if (partner) return std::make_unique<Coupled<D>>(scene, config.forcing_constant, std::move(partner));
   return std::make_unique<Alone<D>>(solver.start_time(), scene.time.end, scene.time.max_windows);
 }
@@ -77,6 +78,8 @@ int run(coupler::Job& job, int argc, char** argv) {
     return 0;
   }
   need_step(options, config, scene);
+  check_scene(scene);
+  support::planned_partner(coupler::Role::fv, scene, config.partner, options);
   if (options.check) {
     const std::ptrdiff_t cells =
         scene.dimension == 2 ? count_cells<2>(config, scene) : count_cells<3>(config, scene);

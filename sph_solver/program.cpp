@@ -5,13 +5,12 @@
 #include <iostream>
 
 #include "config.hpp"
-#include "coupling/partner_choice.hpp"
 #include "io/checkpoint.hpp"
 #include "littoral/coupler/job.hpp"
-#include "littoral/coupler/record.hpp"
 #include "littoral/error.hpp"
 #include "littoral/support/log.hpp"
 #include "littoral/support/options.hpp"
+#include "littoral/support/partner_choice.hpp"
 #include "littoral/support/run_plan.hpp"
 #include "solver.hpp"
 
@@ -30,7 +29,6 @@ void write_text(const std::string& path, const std::string& text) {
 /// The grid side of this run: the job's other program, an analytic one, a record, or nobody.
 std::unique_ptr<coupler::FvPartner> partner_of(coupler::Job& job, const support::ProgramOptions& options,
                                                const RunConfig& config) {
-  if (!options.replay.empty()) return coupler::replayed_fv_partner(options.replay);
   double time = 0.0;
   std::int64_t window = 0;
   if (!options.restart.empty()) {
@@ -39,10 +37,8 @@ std::unique_ptr<coupler::FvPartner> partner_of(coupler::Job& job, const support:
     window = run.window;
   }
   const auto plan = support::run_plan(config.scene, time, window);
-  auto partner = choose_partner(job, config.scene, config.sph.coupling, plan, config.sph.spacing);
-  if (partner && job.has_partner()) job.compare(config.scene.contract());
-  if (partner && !options.record.empty()) return coupler::recording(std::move(partner), options.record);
-  return partner;
+  return support::choose_fv_partner(job, config.scene, config.sph.coupling.partner, options, plan,
+                                    config.sph.spacing);
 }
 
 template <int D>
@@ -73,6 +69,7 @@ int run_program(coupler::Job& job, int argc, char** argv) {
   }
   const RunConfig config = read_config(options.config, options.settings, options.scene_settings);
   check(config);
+  support::planned_partner(coupler::Role::sph, config.scene, config.sph.coupling.partner, options);
   if (options.print_config) {
     if (speaks) std::cout << resolved_text(config);
     return 0;
