@@ -116,7 +116,11 @@ typename Output<D>::Moment Solver<D>::moment(const coupler::Window& window) cons
   now.dt = window.substep_dt();
   now.substeps = window.substeps;
   if (partner_) now.waited = partner_->waited();
-  if (driver_) now.ledger = driver_->ledger();
+  if (driver_) {
+    now.ledger = driver_->ledger();
+    now.exchanged = driver_->hooks().exchange().counts();
+    now.layers = driver_->hooks().layer_count();
+  }
   return now;
 }
 
@@ -164,11 +168,25 @@ void Solver<D>::write(const coupler::Agreement& agreement) {
   const auto& window = agreement.window;
   dynamics_.prepare(particles_, time_, hooks());
   output_.write_rows(moment(window), particles_, dynamics_, layers_);
+  warn_of_layers();
   if (agreement.write) output_.write_fields(time_, particles_);
   if (agreement.checkpoint) write_checkpoint();
   std::ostringstream details;
   details << "dt " << window.substep_dt() << " s, " << particles_.n_owned << " particles";
   log_.progress(time_, config_.scene.time.end, details.str());
+}
+
+template <int D>
+void Solver<D>::warn_of_layers() {
+  const std::size_t without = driver_ ? driver_->hooks().layer_count().unreached : 0;
+  const bool first = most_without_donors_ == 0;
+  most_without_donors_ = std::max(most_without_donors_, without);
+  if (without == 0 || !first) return;
+  std::ostringstream text;
+  text << "t = " << time_ << " s: " << without
+       << " particles of the coupling layers lie where the partner has no water; they move freely until they "
+          "reach it. Their number from now on: n_without_donors in scalars.csv";
+  log_.warn(text.str());
 }
 
 template <int D>
@@ -210,6 +228,7 @@ void Solver<D>::write_summary(double wall_time) {
                      {"end_time", time_},
                      {"list_builds", static_cast<double>(work.list_builds)},
                      {"mirrored_back", static_cast<double>(work.mirrored_back)},
+                     {"most_without_donors", static_cast<double>(most_without_donors_)},
                      {"pairs_per_second", pairs_per_second},
                      {"particle_steps_per_second", particle_steps_per_second}};
   summary.notes = {{"scene", config_.scene.title},

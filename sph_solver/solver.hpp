@@ -41,6 +41,7 @@ class Solver {
   void advance(const coupler::Agreement& agreement);
   void write(const coupler::Agreement& agreement);
   void place_particles();
+  void warn_of_layers();
   void write_checkpoint();
   StepHooks<D>* hooks();
   typename Output<D>::Moment moment(const coupler::Window& window) const;
@@ -57,9 +58,10 @@ class Solver {
   Layers<D> layers_;
   std::optional<RunState> restart_;  // where this run goes on
   Output<D> output_;
-  double time_ = 0.0;             // [s]
-  std::int64_t window_ = 0;       // of the next window
-  double last_checkpoint_ = 0.0;  // [s]
+  double time_ = 0.0;                    // [s]
+  std::int64_t window_ = 0;              // of the next window
+  double last_checkpoint_ = 0.0;         // [s]
+  std::size_t most_without_donors_ = 0;  // particles of the layers, at the end of a window
   std::string stopped_because_;
 };
 

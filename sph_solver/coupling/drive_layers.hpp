@@ -13,7 +13,7 @@ namespace littoral::sph {
 struct LayerCount {
   std::size_t blending = 0;
   std::size_t driven = 0;
-  std::size_t unreached = 0;  ///< in a layer, but FV has no state there (spray above its water)
+  std::size_t unreached = 0;  ///< in a layer, but FV has no state there: spray above its water; left free
 };
 
 /// Gives the particles of the layers their state, at every stage and at the end of a step:

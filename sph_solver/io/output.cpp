@@ -10,11 +10,28 @@ namespace littoral::sph {
 namespace {
 
 std::vector<std::string> scalar_columns() {
-  std::vector<std::string> columns = {
-      "time",          "dt",           "substeps",      "kinetic_energy", "potential_energy",
-      "mass",          "n_particles",  "largest_speed", "mass_in_region", "mass_on_faces",
-      "mass_injected", "mass_removed", "mass_flux",     "fv_mass_flux",   "n_injected",
-      "n_removed",     "ledger_defect"};
+  std::vector<std::string> columns = {"time",
+                                      "dt",
+                                      "substeps",
+                                      "kinetic_energy",
+                                      "potential_energy",
+                                      "mass",
+                                      "n_particles",
+                                      "largest_speed",
+                                      "mass_in_region",
+                                      "mass_on_faces",
+                                      "mass_injected",
+                                      "mass_removed",
+                                      "mass_flux",
+                                      "fv_mass_flux",
+                                      "n_injected",
+                                      "n_removed",
+                                      "ledger_defect",
+                                      "n_removed_crossing",
+                                      "n_removed_nearest",
+                                      "n_blending",
+                                      "n_driven",
+                                      "n_without_donors"};
   for (const char* phase : k_phase_names) columns.push_back(std::string("seconds_") + phase);
   columns.insert(columns.end(), {"seconds_output", "seconds_wait"});
   return columns;
@@ -109,7 +126,12 @@ void Output<D>::write_rows(const Moment& now, const Particles<D>& particles, con
                              ledger.fv_mass_flux,
                              ledger.n_injected,
                              ledger.n_removed,
-                             ledger.defect};
+                             ledger.defect,
+                             static_cast<double>(now.exchanged.removed_crossing),
+                             static_cast<double>(now.exchanged.removed_nearest),
+                             static_cast<double>(now.layers.blending),
+                             static_cast<double>(now.layers.driven),
+                             static_cast<double>(now.layers.unreached)};
   for (std::size_t phase = 0; phase < k_phase_names.size(); ++phase) row.push_back(dynamics.seconds()[phase]);
   row.insert(row.end(), {seconds_, now.waited});
   scalars_.row(row);

@@ -5,6 +5,8 @@
 #include <string>
 
 #include "config.hpp"
+#include "coupling/drive_layers.hpp"
+#include "coupling/particle_exchange.hpp"
 #include "coupling/zones.hpp"
 #include "io/checkpoint.hpp"
 #include "littoral/coupler/partner.hpp"
@@ -31,6 +33,8 @@ class Output {
     int substeps = 0;     // M
     double waited = 0.0;  // wall time spent waiting for the partner so far [s]
     coupler::Ledger ledger;
+    ExchangeCounts exchanged;  // by cause, since the start
+    LayerCount layers;         // as the last stage found them
   };
   /// pre: copies and lists current (Dynamics::prepare)
   void write_rows(const Moment& now, const Particles<D>& particles, const Dynamics<D>& dynamics,
