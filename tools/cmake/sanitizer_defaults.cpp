@@ -1,4 +1,5 @@
-// Compiled into every program of a sanitized build, so that it behaves alike under ctest, mpirun and a debugger.
+// Compiled into every program of a sanitized build, so that it behaves alike under ctest, mpirun and a
+// debugger.
 
 extern "C" {
 
@@ -11,7 +12,6 @@ const char* __lsan_default_suppressions() {
   return "leak:libmpi\nleak:libopen-pal\nleak:libopen-rte\nleak:libpmix\nleak:libhwloc\nleak:libevent\n"
          "leak:mca_\nleak:libfabric\nleak:libucp\nleak:libpsm\nleak:libnl\nleak:libgomp\n";
 }
-
 
 /// Without this the list is printed at every exit, in the middle of a test's own output.
 const char* __lsan_default_options() { return "print_suppressions=0"; }
