@@ -2,18 +2,21 @@
 
 #include <mpi.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "littoral/coupler/analytic.hpp"
 #include "littoral/coupler/job.hpp"
+#include "littoral/support/scene.hpp"
 
 namespace littoral::mock {
 
 /// What a mock partner is asked to play. All lengths in m, times in s.
 struct Script {
   int dimension = 2;
-  coupler::Box region{{0.0, 0.0, -0.5}, {1.0, 0.4, 0.0}};  // where mock_sph has its particles and layers
+  coupler::Box region{{0.0, 0.0, -0.5}, {1.0, 0.4, 0.0}};  // where mock_sph has its particles
+  coupler::Box layers = region;                            // where it needs donors
   coupler::Box grid{{-0.5, -0.3, -1.2}, {1.5, 0.7, 0.4}};  // cells of mock_fv
   double spacing = 0.1;
   bool with_phi = true;
@@ -33,17 +36,24 @@ struct Script {
   std::string misbehave;  // empty: plays by the rules
   int at = 2;             // in this window
   double delay = 1.0;     // of `late`
+
+  // Of a mock beside a real solver: the scene that the other one reads, whose initial state is a steady flow.
+  std::optional<support::Scene> scene;
+  double tolerance = 0.0;  // of the other's values, in the units of each, beyond round-off
 };
 
-/// Reads --key value pairs; throws ConfigError for what it does not know.
+/// Reads --key value pairs; throws ConfigError for what it does not know. With --scene FILE (and any number
+/// of
+/// --set scene.KEY=VALUE, as the solvers have it) the scene says what the mock plays: contract, plan, flow,
+/// region. Its region has one face open to the grid, the lower one along z.
 Script parse(int argc, char** argv);
 
 coupler::RunPlan plan_of(const Script& script);
 coupler::Contract contract_of(const Script& script);
 
-/// Linear in space and time: trilinear weights and (24) reproduce it to round-off, so every value that
-/// crosses can be checked by the other side.
-coupler::FlowState linear_flow(const coupler::Vec3& x, double t);
+/// The scene's initial state or, without a scene, linear in space and time: trilinear weights and (24)
+/// reproduce it to round-off, so every value that crosses can be checked by the other side.
+coupler::FlowState flow(const Script& script, const coupler::Vec3& x, double t);
 
 /// Part `rank` of `box`.
 coupler::Box part_of(const coupler::Box& box, int rank, int size, const Script& script);

@@ -4,14 +4,37 @@
 #include <map>
 
 #include "littoral/error.hpp"
+#include "littoral/support/run_plan.hpp"
 #include "mock.hpp"
 
 namespace littoral::mock {
 
 using namespace coupler;
 
+namespace {
+
+void play_scene(Script& s, const std::string& file, const std::vector<std::string>& settings) {
+  s.scene = support::Scene::from_file(file, settings);
+  const auto& scene = *s.scene;
+  s.dimension = scene.dimension;
+  s.deadline = scene.coupling.deadline;
+  s.with_phi = support::level_set_crosses(scene);
+  const auto& region = scene.regions.at(0);
+  s.region = s.layers = {region.lower, region.upper};
+  const double face = region.lower[2];
+  s.layers.lower[2] = face - scene.coupling.blending_width - scene.coupling.driven_width;
+  s.layers.upper[2] = face;
+  // as much of the grid as the layers need, and the cells it takes from the particles
+  s.grid = s.layers.grown(4.0 * s.spacing);
+  s.grid.upper[2] = face + scene.coupling.fringe_layers * s.spacing;
+}
+
+}  // namespace
+
 Script parse(int argc, char** argv) {
   Script s;
+  std::string scene;
+  std::vector<std::string> settings;
   const auto number = [](double& to) { return [&to](const std::string& text) { to = std::stod(text); }; };
   const auto integer = [](int& to) { return [&to](const std::string& text) { to = std::stoi(text); }; };
   const auto flag = [](bool& to) { return [&to](const std::string& text) { to = text == "yes"; }; };
@@ -30,6 +53,9 @@ Script parse(int argc, char** argv) {
       {"--stop-at", integer(s.stop_at)},
       {"--region-changes-at", integer(s.region_changes_at)},
       {"--particles", flag(s.wants_particles)},
+      {"--scene", word(scene)},
+      {"--set", [&](const std::string& text) { settings.push_back(text.substr(text.find('.') + 1)); }},
+      {"--tolerance", number(s.tolerance)},
       {"--entries", integer(s.entries)},
       {"--work", number(s.work)},
       {"--misbehave", word(s.misbehave)},
@@ -41,10 +67,12 @@ Script parse(int argc, char** argv) {
       throw ConfigError(std::string("mock: what is ") + argv[i] + "?");
     option->second(argv[i + 1]);
   }
+  if (!scene.empty()) play_scene(s, scene, settings);
   return s;
 }
 
 RunPlan plan_of(const Script& script) {
+  if (script.scene) return support::run_plan(*script.scene);
   RunPlan plan;
   for (const auto schedule :
        {Schedule::serial, Schedule::predicted, Schedule::iterated, Schedule::concurrent})
@@ -57,6 +85,7 @@ RunPlan plan_of(const Script& script) {
 }
 
 Contract contract_of(const Script& script) {
+  if (script.scene) return script.scene->contract();
   Contract contract;
   contract.set("dimension", static_cast<double>(script.dimension)).set("fluid.density", 1000.0);
   const bool wrong = script.misbehave == "wrong-scene";
@@ -66,8 +95,15 @@ Contract contract_of(const Script& script) {
   return contract;
 }
 
-FlowState linear_flow(const Vec3& x, double t) {
+FlowState flow(const Script& script, const Vec3& x, double t) {
   FlowState state;
+  if (script.scene) {
+    const auto& initial = script.scene->initial;
+    state.p = initial.p(x[0], x[1], x[2], t);
+    state.u = {initial.u(x[0], x[1], x[2], t), initial.v(x[0], x[1], x[2], t),
+               initial.w(x[0], x[1], x[2], t)};
+    return state;
+  }
   state.p = 3.0 + 2.0 * x[0] - 1.0 * x[1] - 9.81 * x[2] + 5.0 * t;
   state.u = {0.3 + 0.1 * x[2] - 0.2 * t, 0.02 * x[1], -0.1 + 0.1 * x[0] + 0.4 * t};
   state.phi = x[2] - 0.05 * x[0] - 0.2 - 0.1 * t;
