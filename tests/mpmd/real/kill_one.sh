@@ -1,6 +1,6 @@
 #!/bin/bash
-# kill_one.sh VICTIM MPIEXEC SPH FV CONFIG OPTIONS...: starts both solvers, kills VICTIM (sph or fv) without warning when it is
-# under way, and demands that the job ends, not with 0, within seconds.
+# kill_one.sh VICTIM MPIEXEC SPH FV CONFIG OPTIONS...: starts both solvers, kills VICTIM (sph or fv) without warning when
+# it is under way, and demands that the job ends, not with 0, within seconds.
 victim=$1 mpiexec=$2 sph=$3 fv=$4 config=$5
 shift 5
 out=killed_$victim
@@ -9,7 +9,8 @@ mkdir "$out"
 program() { # the program's process id is that of the shell it replaces
   echo "echo \$\$ > $out/$1.pid; exec \"\$@\""
 }
-timeout -k 5 40 "$mpiexec" --oversubscribe -n 1 bash -c "$(program sph)" sph "$sph" --config "$config/sph.yaml" --out "$out" "$@" \
+timeout -k 5 40 "$mpiexec" --oversubscribe \
+  -n 1 bash -c "$(program sph)" sph "$sph" --config "$config/sph.yaml" --out "$out" "$@" \
   : -n 1 bash -c "$(program fv)" fv "$fv" --config "$config/fv.yaml" --out "$out" "$@" >"$out/screen" 2>&1 &
 job=$!
 trap 'kill $job 2>/dev/null; cat "$out/screen"' EXIT
