@@ -43,7 +43,9 @@ class Companion {
 template <int D>
 class Alone : public Companion<D> {
  public:
-  Alone(double start, double end, long max_windows) : time_(start), end_(end), max_windows_(max_windows) {}
+  /// start, start_window: where a continued run stands; max_windows counts from there
+  Alone(double start, double end, long max_windows, std::int64_t start_window = 0)
+      : start_window_(start_window), time_(start), end_(end), max_windows_(max_windows) {}
   void begin(Stepper<D>&) override {}
   std::optional<coupler::Agreement> agree(const coupler::Proposal& mine) override {
     if (mine.stop || !(time_ < end_) || (max_windows_ >= 0 && windows_ >= max_windows_)) return {};
@@ -51,7 +53,7 @@ class Alone : public Companion<D> {
     policy.dt = mine.dt_stable;
     coupler::Proposal nobody;
     nobody.dt_stable = std::numeric_limits<double>::infinity();
-    return coupler::agree(nobody, mine, policy, windows_, time_, end_);
+    return coupler::agree(nobody, mine, policy, start_window_ + windows_, time_, end_);
   }
   StepReport advance(const coupler::Window& window, Stepper<D>& stepper) override {
     ++windows_;
@@ -62,6 +64,7 @@ class Alone : public Companion<D> {
   std::string description() const override { return "alone"; }
 
  private:
+  std::int64_t start_window_;
   std::int64_t windows_ = 0;  // since the start of this run
   double time_, end_;         // [s]
   long max_windows_;

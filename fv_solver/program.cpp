@@ -27,7 +27,8 @@ std::unique_ptr<Companion<D>> companion_of(coupler::Job& job, const ProgramOptio
   const auto plan = support::run_plan(scene, solver.start_time(), solver.start_window());
   auto partner = support::choose_sph_partner(job, scene, config.partner, options, plan);
   if (partner) return std::make_unique<Coupled<D>>(scene, config.forcing_constant, std::move(partner));
-  return std::make_unique<Alone<D>>(solver.start_time(), scene.time.end, scene.time.max_windows);
+  return std::make_unique<Alone<D>>(solver.start_time(), scene.time.end, scene.time.max_windows,
+                                    solver.start_window());
 }
 
 /// A run alone takes its steps from this program's file.
