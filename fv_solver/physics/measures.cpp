@@ -11,7 +11,6 @@
 #include "physics/flux_rows.hpp"
 
 namespace littoral::fv {
-namespace {}  // namespace
 
 template <int D>
 Field outside_share(const Block<D>& block, const std::vector<coupler::Box>& regions) {
