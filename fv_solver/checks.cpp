@@ -1,9 +1,96 @@
 #include "checks.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "grid/bounds.hpp"
+#include "grid/loops.hpp"
+#include "grid/space.hpp"
 #include "littoral/error.hpp"
 #include "littoral/support/run_plan.hpp"
 
 namespace littoral::fv {
+namespace {
+
+template <int D>
+std::string place(const Block<D>& block, const std::array<int, D>& index) {
+  const coupler::Vec3 x = centre_in_space(block, block.extent.at(index));
+  char text[160];
+  std::snprintf(text, sizeof text, "(%.6g, %.6g, %.6g) m", x[0], x[1], x[2]);
+  return "block '" + block.name + "', cell at " + text;
+}
+
+/// Nothing crosses from block to block.
+template <int D>
+void check_apart(const std::vector<Block<D>>& blocks) {
+  for (std::size_t a = 0; a < blocks.size(); ++a)
+    for (std::size_t b = a + 1; b < blocks.size(); ++b) {
+      const coupler::Box one = bounds<D>({blocks[a]}), other = bounds<D>({blocks[b]});
+      bool apart = false;
+      for (std::size_t d = 0; d < D; ++d) {
+        const std::size_t x = axis_in_space<D>(d);
+        apart = apart || one.upper[x] < other.lower[x] || other.upper[x] < one.lower[x];
+      }
+      if (apart) continue;
+      throw ConfigError(
+          "blocks '" + blocks[a].name + "' and '" + blocks[b].name +
+          "' meet or overlap, but nothing passes from block to block yet: describe the grid by one "
+          "block (stretching, mapping), or keep the blocks apart");
+    }
+}
+
+/// Ghosts behind a fringe face are set by nobody: no solved cell may read them.
+template <int D>
+void check_fringe_faces(const Block<D>& block) {
+  for (const Window<D>& w : block.windows) {
+    if (w.condition != Condition::fringe) continue;
+    const auto d = static_cast<std::size_t>(w.direction);
+    std::array<int, D> lower = w.lower, upper = w.upper;
+    lower[d] = w.side == 0 ? 0 : block.extent.n[d] - 1;
+    upper[d] = lower[d] + 1;
+    for_each_index<D>(lower, upper, [&](const std::array<int, D>& index) {
+      if (block.solved[static_cast<std::size_t>(block.extent.at(index))] == 0.0) return;
+      throw ConfigError(
+          place<D>(block, index) + ", face '" + w.name +
+          "': the scene says this side is open, or the face is a fringe, but the cell is solved "
+          "and nobody gives values beyond it. Give the face a condition (wall, slip, symmetry, "
+          "inflow, outflow, far_field, state)");
+    });
+  }
+}
+
+/// One phase: a cell that the surface cuts, or that lies above it, would be computed as full of water.
+template <int D>
+void check_under_water(const Block<D>& block, const support::Formula& surface) {
+  for_each_index<D>({}, block.extent.n, [&](const std::array<int, D>& index) {
+    if (block.solved[static_cast<std::size_t>(block.extent.at(index))] == 0.0) return;
+    double highest = -std::numeric_limits<double>::infinity(), largest = 0.0;  // of phi over the corners
+    std::array<int, D> corners;
+    corners.fill(2);
+    for_each_index<D>({}, corners, [&](const std::array<int, D>& corner) {
+      std::array<int, D> at = index;
+      std::array<double, D> x;
+      for (std::size_t d = 0; d < D; ++d) at[d] += corner[d];
+      for (std::size_t d = 0; d < D; ++d)
+        x[d] = block.node[d][static_cast<std::size_t>(block.node_extent.at(at))];
+      const coupler::Vec3 s = vector_in_space<D>(x);
+      const double phi = surface(s[0], s[1], s[2], 0.0);
+      highest = std::max(highest, phi);
+      largest = std::max(largest, std::abs(phi));
+    });
+    constexpr double k_round_off = 1e-6;  // of the cell's size: a surface along a row of faces is no cut
+    if (highest <= k_round_off * largest) return;
+    throw ConfigError(
+        place<D>(block, index) +
+        ": the scene's initial.surface passes through or below it, but fv_solver computes water "
+        "only: end the grid below the surface, or give the surface to the particles "
+        "(coupling.kind: imposed)");
+  });
+}
+
+}  // namespace
 
 void check_scene(const support::Scene& scene) {
   if (support::level_set_crosses(scene))
@@ -13,5 +100,17 @@ void check_scene(const support::Scene& scene) {
         "the level set would have to cross; fv_solver computes water only: let the region reach from side to "
         "side of the domain, as under a wave, with coupling.kind: imposed");
 }
+
+template <int D>
+void check_blocks(const std::vector<Block<D>>& blocks, const support::Scene& scene) {
+  check_apart<D>(blocks);
+  for (const Block<D>& block : blocks) {
+    check_fringe_faces<D>(block);
+    if (scene.initial.surface) check_under_water<D>(block, *scene.initial.surface);
+  }
+}
+
+template void check_blocks<2>(const std::vector<Block<2>>&, const support::Scene&);
+template void check_blocks<3>(const std::vector<Block<3>>&, const support::Scene&);
 
 }  // namespace littoral::fv

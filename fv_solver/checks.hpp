@@ -1,10 +1,18 @@
 #pragma once
 
+#include <vector>
+
+#include "grid/block.hpp"
 #include "littoral/support/scene.hpp"
 
 namespace littoral::fv {
 
 /// throws ConfigError where the scene asks for what this solver does not compute
 void check_scene(const support::Scene& scene);
+
+/// Of the blocks as they are about to be solved, the SPH region carved out of them.
+/// throws ConfigError: blocks that meet, a fringe face beside a solved cell, a free surface in solved cells
+template <int D>
+void check_blocks(const std::vector<Block<D>>& blocks, const support::Scene& scene);
 
 }  // namespace littoral::fv

@@ -46,7 +46,8 @@ void FaceConfig::bind(Binder& b) {
           "wall: no "
           "slip, u v w slide it; slip; symmetry; inflow: u v w given; outflow: p given; far_field: all "
           "given; "
-          "state: all given in two layers of ghosts; periodic; fringe: ghosts imposed by the partner.");
+          "state: all given in two layers of ghosts; periodic; fringe: none, for faces whose cells the "
+          "particles impose or blank.");
   b.key("name", name).doc("Of the wall or opening, for forces and messages; left out: block.face.");
   b.key("u", u).unit("m/s").doc("Velocity along x on the face.");
   b.key("v", v).unit("m/s").doc("Velocity along y on the face; 3-D only.");

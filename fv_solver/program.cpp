@@ -6,7 +6,9 @@
 
 #include "checks.hpp"
 #include "companion.hpp"
+#include "coupling/carve.hpp"
 #include "coupling/coupled.hpp"
+#include "io/gauges.hpp"
 #include "littoral/error.hpp"
 #include "littoral/support/options.hpp"
 #include "littoral/support/partner_choice.hpp"
@@ -37,11 +39,18 @@ void need_step(const ProgramOptions& options, const FvConfig& config, const supp
     throw ConfigError(options.config + ": a run without partner needs a step: give time.dt or time.cfl");
 }
 
-/// What --check finds beyond reading: a grid that cannot be built.
+/// What --check finds beyond reading: everything a run would refuse before its first window.
 template <int D>
-std::ptrdiff_t count_cells(const FvConfig& config, const support::Scene& scene) {
+std::ptrdiff_t check_run(const FvConfig& config, const support::Scene& scene) {
+  Stepper<D> stepper = make_stepper<D>(config, scene);
+  if (scene.has_region()) {
+    carve(stepper.blocks(), scene);
+    check_layers_covered<D>(DonorOffer<D>(stepper.blocks()).geometry(), scene);
+  }
+  check_blocks<D>(stepper.blocks(), scene);
+  const Gauges<D> gauges(config.gauges, stepper);
   std::ptrdiff_t cells = 0;
-  for (const Block<D>& block : build_blocks<D>(config, scene)) cells += block.extent.cells();
+  for (const Block<D>& block : stepper.blocks()) cells += block.extent.cells();
   return cells;
 }
 
@@ -83,7 +92,7 @@ int run(coupler::Job& job, int argc, char** argv) {
   support::planned_partner(coupler::Role::fv, scene, config.partner, options);
   if (options.check) {
     const std::ptrdiff_t cells =
-        scene.dimension == 2 ? count_cells<2>(config, scene) : count_cells<3>(config, scene);
+        scene.dimension == 2 ? check_run<2>(config, scene) : check_run<3>(config, scene);
     if (speaks) std::printf("fv_solver: %s: no problem found; %td cells\n", options.config.c_str(), cells);
     return 0;
   }

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <limits>
 
+#include "checks.hpp"
 #include "io/checkpoint.hpp"
 #include "littoral/coupler/job.hpp"
 #include "littoral/error.hpp"
@@ -65,6 +66,7 @@ void Solver<D>::run(Companion<D>& companion) {
   companion.tell = [this](const std::string& message) { log_.info(message); };
   companion.warn = [this](const std::string& message) { log_.warn(message); };
   companion.begin(stepper_);
+  check_blocks<D>(stepper_.blocks(), scene_);
   if (restarted_) companion.load(support::CheckpointReader(restart_));
   output_ = std::make_unique<Output<D>>(folder_, config_, scene_, stepper_, timers_, restarted_);
   std::ptrdiff_t cells = 0;

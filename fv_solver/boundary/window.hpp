@@ -17,7 +17,7 @@ namespace littoral::fv {
 ///   far_field  Riemann problem against a given state, with a wave speed of the order of the stream's
 ///   state      p and u given in both ghost layers, ordinary flux
 ///   periodic   the opposite face of the same block
-///   fringe     ghost layers imposed from outside (partner or other block), ordinary flux
+///   fringe     nothing: only beside cells that are not solved (imposed or blanked)
 enum class Condition : std::uint8_t {
   wall,
   slip,

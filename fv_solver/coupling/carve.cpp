@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "grid/bounds.hpp"
 #include "grid/loops.hpp"
 #include "grid/metrics.hpp"
 #include "grid/space.hpp"
@@ -79,26 +80,6 @@ void check_depth(const Block<D>& block, const std::vector<int>& layer, int fring
               (in_block ? ": the region is too thin" : ": let the block reach further into the region"));
         }
   });
-}
-
-template <int D>
-coupler::Box bounds(const std::vector<Block<D>>& blocks) {
-  constexpr double inf = std::numeric_limits<double>::infinity();
-  coupler::Box box{{inf, inf, inf}, {-inf, -inf, -inf}};
-  for (const auto& block : blocks) {
-    std::array<int, D> upper = block.extent.n;
-    for (int& n : upper) ++n;
-    for_each_index<D>({}, upper, [&](const std::array<int, D>& index) {
-      const auto node = static_cast<std::size_t>(block.node_extent.at(index));
-      for (std::size_t d = 0; d < D; ++d) {
-        const std::size_t a = axis_in_space<D>(d);
-        box.lower[a] = std::min(box.lower[a], block.node[d][node]);
-        box.upper[a] = std::max(box.upper[a], block.node[d][node]);
-      }
-    });
-  }
-  if (D == 2) box.lower[1] = box.upper[1] = 0.0;
-  return box;
 }
 
 /// The nodes' coordinate nearest to a nominal face, among those over the face's own extent.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "coupling/carve.hpp"
 #include "coupling_models.hpp"
 #include "littoral/error.hpp"
 
@@ -32,6 +33,50 @@ TEST(ChecksTest, ASceneWhoseLevelSetCrossesIsRefused) {
   auto pool = scene;
   pool.regions[0].lower[0] = 0.25;  // an upright face, through which the surface passes
   EXPECT_NE(refusal([&] { check_scene(pool); }).find("level set would have to cross"), std::string::npos);
+}
+
+TEST(ChecksTest, AFringeFaceBesideSolvedCellsIsRefused) {
+  const auto scene = test::top_scene(0.0);  // the particles have everything above z = .5
+  std::vector<Block<2>> blocks{test::water_box<2>(16, true)};
+  auto& windows = blocks[0].windows;
+  windows.back().condition = Condition::fringe;  // the top, inside the region
+  carve(blocks, scene);
+  EXPECT_NO_THROW(check_blocks<2>(blocks, scene));
+  windows[windows.size() - 2].condition = Condition::fringe;  // the bottom: nobody is there
+  EXPECT_NE(refusal([&] { check_blocks<2>(blocks, scene); }).find("Give the face a condition (wall, slip"),
+            std::string::npos);
+}
+
+TEST(ChecksTest, AFreeSurfaceInSolvedCellsIsRefused) {
+  auto scene = test::top_scene(9.81);
+  std::vector<Block<2>> blocks{test::water_box<2>(16, true)};
+  scene.coupling.kind = support::Scene::CouplingKind::none;  // the grid alone
+  scene.initial.surface = surface_at("z-1");                 // its upper edge
+  EXPECT_NO_THROW(check_blocks<2>(blocks, scene));
+  for (const char* surface : {"z-0.99", "z-0.5", "z-1+0.01*cos(6*x)"}) {
+    scene.initial.surface = surface_at(surface);
+    EXPECT_NE(refusal([&] { check_blocks<2>(blocks, scene); }).find("computes water only"), std::string::npos)
+        << surface;
+  }
+  scene.coupling.kind = support::Scene::CouplingKind::imposed;  // it moves where the particles are
+  carve(blocks, scene);
+  EXPECT_NO_THROW(check_blocks<2>(blocks, scene));
+}
+
+TEST(ChecksTest, BlocksThatMeetAreRefused) {
+  auto scene = test::top_scene(0.0);
+  scene.coupling.kind = support::Scene::CouplingKind::none;
+  const std::vector<Block<2>> twice(2, test::water_box<2>(8, true));
+  EXPECT_NE(refusal([&] { check_blocks<2>(twice, scene); }).find("meet or overlap"), std::string::npos);
+}
+
+TEST(AloneTest, AContinuedRunCountsItsWindowsOn) {
+  Alone<2> alone(0.5, 1.0, 2, 7);
+  coupler::Proposal mine;
+  mine.dt_stable = 0.1;
+  const auto next = alone.agree(mine);
+  ASSERT_TRUE(next.has_value());
+  EXPECT_EQ(next->window.index, 7);
 }
 
 }  // namespace
