@@ -106,14 +106,36 @@ void describe_faces(const std::vector<Block<D>>& blocks, const support::Scene& s
         const std::size_t a = axis_in_space<D>(d);
         if (!scene.open_face(region, a, side)) continue;
         const double face = side == 0 ? region.lower[a] : region.upper[a];
-        carving.column_depth =
-            std::max(carving.column_depth, side == 0 ? face - grid.lower[a] : grid.upper[a] - face);
         const double off = face - nearest_node(blocks, d, face);
         if (std::abs(off) > 1e-6 * (grid.upper[a] - grid.lower[a]))
           carving.notes.push_back("the region's face " + std::string(k_axis[a]) + " = " + text(face) +
                                   " m lies " + text(std::abs(off)) + " m " + (off > 0.0 ? "above" : "below") +
                                   " the nearest cell faces; cells belong to the side of their centres");
       }
+}
+
+/// Length of the water along the strongest component of gravity, grid and particles together: the longest of
+/// the lines through the regions' middles.
+double column_depth(const coupler::Box& grid, const support::Scene& scene) {
+  constexpr int k_points = 1000;  // along a line
+  std::size_t a = 0;
+  for (std::size_t d = 1; d < 3; ++d)
+    if (std::abs(scene.gravity[d]) > std::abs(scene.gravity[a])) a = d;
+  if (scene.gravity[a] == 0.0) return 0.0;
+  double deepest = 0.0;
+  for (const auto& region : scene.regions) {
+    coupler::Vec3 x{};
+    for (std::size_t d = 0; d < 3; ++d) x[d] = 0.5 * (region.lower[d] + region.upper[d]);
+    const double lower = std::min(grid.lower[a], region.lower[a]);
+    const double upper = std::max(grid.upper[a], region.upper[a]);
+    int wet = 0;
+    for (int i = 0; i < k_points; ++i) {
+      x[a] = lower + (upper - lower) * (i + 0.5) / k_points;
+      if (!scene.initial.surface || (*scene.initial.surface)(x[0], x[1], x[2], 0.0) < 0.0) ++wet;
+    }
+    deepest = std::max(deepest, (upper - lower) * wet / k_points);
+  }
+  return deepest;
 }
 
 }  // namespace
@@ -166,6 +188,7 @@ Carving carve(std::vector<Block<D>>& blocks, const support::Scene& scene) {
                         text(grid.upper[2]) +
                         ") m: the grid must reach into the region by coupling.fringe_layers cells");
   describe_faces(blocks, scene, carving);
+  carving.column_depth = column_depth(grid, scene);
   return carving;
 }
 

@@ -13,8 +13,8 @@ struct Carving {
   long n_fringe = 0, n_blanked = 0, n_forced = 0;  // [cells]
   /// For the log: where a nominal face of the region does not lie on the cells' faces, and by how much.
   std::vector<std::string> notes;
-  double column_depth = 0.0;  // [m] H of the column the gravest acoustic mode 4H/c lives in: the largest
-                              // distance from an open face of the region to the end of a block beyond it
+  double column_depth = 0.0;  // [m] H of the column the gravest acoustic mode 4H/c lives in: the water along
+                              // gravity, from the ground to the surface; 0 without gravity
 };
 
 /// Gives the cells inside the SPH region their roles. A cell is inside where its centre is within a nominal

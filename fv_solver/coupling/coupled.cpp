@@ -131,7 +131,8 @@ void Coupled<D>::step(const coupler::Window& window, const Values& values, Stepp
           for (std::size_t k = 0; k < D; ++k) s2 += block.area[d][k][c] * block.area[d][k][c];
           delta = std::min(delta, block.volume[c] / std::sqrt(s2) / u_ref);
         }
-        forcing.rate[c] = forcing_constant_ / delta;
+        // nothing to drive it to where the particles gave no value
+        forcing.rate[c] = cells_->known(b)[m] ? forcing_constant_ / delta : 0.0;
         forcing.target.p[c] = values[b].p[m];
         for (std::size_t k = 0; k < D; ++k) forcing.target.u[k][c] = values[b].u[k][m];
       }
@@ -157,21 +158,21 @@ void Coupled<D>::put_into_fringe(const Values& values, Stepper<D>& stepper) cons
   }
 }
 
-/// Extrapolation in time feeds the gravest acoustic mode of the column below the particles, of period 4H/c,
+/// Extrapolation in time feeds the gravest acoustic mode of the water column, of period 4H/c,
 /// when a window is too large a part of it.
 template <int D>
 void Coupled<D>::warn_of_long_windows(double dt) {
   constexpr double k_enough = 25.0;
   const Schedule schedule = scene_.coupling.schedule.schedule;
-  if (warned_ || (schedule != Schedule::serial && schedule != Schedule::concurrent)) return;
+  if (warned_ || !(column_depth_ > 0.0) || (schedule != Schedule::serial && schedule != Schedule::concurrent)) return;
   const double windows = 4.0 * column_depth_ / (scene_.fluid.sound_speed * dt);
   if (windows >= k_enough) return;
   warned_ = true;
   char text[320];
   std::snprintf(
       text, sizeof text,
-      "schedule %s with windows of %.3g s: only %.1f of them in 4H/c (H = %.4g m, depth of the grid beyond "
-      "the region); below %.0f extrapolation feeds the column's acoustic mode. Use predicted, or shorter "
+      "schedule %s with windows of %.3g s: only %.1f of them in 4H/c (H = %.4g m, the water "
+      "column); below %.0f extrapolation feeds the column's acoustic mode. Use predicted, or shorter "
       "windows",
       coupler::name(schedule), dt, windows, column_depth_, k_enough);
   this->warn(text);

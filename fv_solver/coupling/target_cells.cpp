@@ -54,7 +54,9 @@ TargetCells<D>::TargetCells(const Stepper<D>& stepper, CellStatus status) {
     take(stepper.state()[b], now_[b]);
     take(stepper.state()[b], before_[b]);
     take(rates(stepper, b), rate_[b]);
+    known_.emplace_back(now_[b].cell.size(), std::uint8_t{1});
   }
+  known_now_ = known_before_ = known_;
 }
 
 template <int D>
@@ -72,13 +74,14 @@ std::vector<Imposed<D>> TargetCells<D>::extrapolated(double dt) const {
 
 template <int D>
 std::vector<Imposed<D>> TargetCells<D>::received(const std::vector<Block<D>>& blocks,
-                                                 const coupler::Samples& samples, bool required) const {
+                                                 const coupler::Samples& samples, bool required) {
   std::vector<Imposed<D>> values = now_;
   const std::array<const Field*, 3> velocity{&samples.u, &samples.v, &samples.w};
   std::size_t i = 0;
   for (std::size_t b = 0; b < values.size(); ++b)
     for (std::size_t m = 0; m < values[b].cell.size(); ++m, ++i) {
-      if (samples.status[i] == coupler::SampleStatus::ok) {
+      known_[b][m] = samples.status[i] == coupler::SampleStatus::ok;
+      if (known_[b][m]) {
         values[b].p[m] = samples.p[i];
         for (std::size_t k = 0; k < D; ++k) values[b].u[k][m] = (*velocity[axis_in_space<D>(k)])[i];
         continue;
@@ -104,16 +107,20 @@ std::vector<Imposed<D>> TargetCells<D>::received(const std::vector<Block<D>>& bl
 template <int D>
 void TargetCells<D>::accept(std::vector<Imposed<D>> values, double dt) {
   const std::vector<Imposed<D>>& from = dt_before_ > 0.0 ? before_ : now_;
+  const Mask& known_from = dt_before_ > 0.0 ? known_before_ : known_now_;
   const double span = dt + dt_before_;
   for (std::size_t b = 0; b < now_.size(); ++b) {
-    const auto slope = [span](Field& rate, const Field& begin, const Field& end) {
-      for (std::size_t i = 0; i < rate.size(); ++i) rate[i] = (end[i] - begin[i]) / span;
+    const auto slope = [&, b](Field& rate, const Field& begin, const Field& end) {
+      for (std::size_t i = 0; i < rate.size(); ++i)
+        rate[i] = known_[b][i] && known_from[b][i] ? (end[i] - begin[i]) / span : 0.0;
     };
     slope(rate_[b].p, from[b].p, values[b].p);
     for (std::size_t k = 0; k < D; ++k) slope(rate_[b].u[k], from[b].u[k], values[b].u[k]);
   }
   before_ = std::move(now_);
   now_ = std::move(values);
+  known_before_ = std::move(known_now_);
+  known_now_ = known_;
   dt_before_ = dt;
 }
 
@@ -128,6 +135,8 @@ void TargetCells<D>::save(support::CheckpointWriter& file) const {
     write("now", now_[b]);
     write("before", before_[b]);
     write("rate", rate_[b]);
+    file.put(key("known", b, 0), known_now_[b]);
+    file.put(key("known", b, 1), known_before_[b]);
   }
 }
 
@@ -146,6 +155,8 @@ void TargetCells<D>::load(const support::CheckpointReader& file) {
     read("now", now_[b]);
     read("before", before_[b]);
     read("rate", rate_[b]);
+    known_[b] = known_now_[b] = file.bytes(key("known", b, 0));
+    known_before_[b] = file.bytes(key("known", b, 1));
   }
 }
 

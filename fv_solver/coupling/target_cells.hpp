@@ -25,10 +25,13 @@ class TargetCells {
   /// ten substeps a window then feeds the column's acoustic mode). At the start along the cells' own rates.
   /// One entry a block.
   std::vector<Imposed<D>> extrapolated(double dt) const;
-  /// Puts samples in the order of the targets. Coupling I (`required`): every one must be ok.
+  /// Puts samples in the order of the targets. Coupling I (`required`): every one must be ok. Else cells
+  /// without a sample keep what they had, and are no longer known.
   /// throws CouplingError naming cell, place, status and coverage
   std::vector<Imposed<D>> received(const std::vector<Block<D>>& blocks, const coupler::Samples& samples,
-                                   bool required) const;
+                                   bool required);
+  /// 1 where the samples last received gave a value, in the order of a block's targets.
+  const std::vector<std::uint8_t>& known(std::size_t block) const { return known_[block]; }
   /// The window is over: `values` are those of its end, dt its length.
   void accept(std::vector<Imposed<D>> values, double dt);
 
@@ -39,6 +42,8 @@ class TargetCells {
   coupler::Targets targets_;
   std::vector<Imposed<D>> now_, rate_;  // values and their slope in time
   std::vector<Imposed<D>> before_;      // values one window ago
+  using Mask = std::vector<std::vector<std::uint8_t>>;
+  Mask known_, known_now_, known_before_;  // of the samples last received, of now_, of before_
   double dt_before_ = 0.0;              // [s] that window's length; 0: there was none
 };
 

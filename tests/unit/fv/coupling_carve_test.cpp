@@ -28,7 +28,7 @@ TEST(CarveTest, RegionInTheMiddleGetsFringeAroundItsHole) {
   EXPECT_EQ(carving.n_fringe, 144 - 64);
   EXPECT_EQ(carving.n_blanked, 64);
   EXPECT_TRUE(carving.notes.empty());
-  EXPECT_NEAR(carving.column_depth, 0.2, 1e-12);
+  EXPECT_EQ(carving.column_depth, 0.0);  // without gravity there is no column
   const Block<2>& block = blocks[0];
   const auto status = [&](int i, int k) {
     return block.status[static_cast<std::size_t>(block.extent.at({i, k}))];
@@ -47,6 +47,14 @@ TEST(CarveTest, PeriodicNeighboursCount) {
   const Carving carving = carve(blocks, scene);
   EXPECT_EQ(carving.n_fringe, 2 * 16);
   EXPECT_EQ(carving.n_blanked, 6 * 16);
+}
+
+TEST(CarveTest, ColumnIsAllTheWaterAlongGravity) {
+  auto scene = test::top_scene(9.81);
+  std::vector<Block<2>> blocks{water_box<2>(16, true)};
+  EXPECT_NEAR(carve(blocks, scene).column_depth, 2.0, 1e-12);  // not the .5 m of grid below the region
+  scene.initial.surface = support::Formula("z-1.6", {});
+  EXPECT_NEAR(carve(blocks, scene).column_depth, 1.6, 2e-3);  // found to a 1000th of the line
 }
 
 TEST(CarveTest, FaceBetweenCellFacesIsReported) {

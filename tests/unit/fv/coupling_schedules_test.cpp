@@ -262,11 +262,11 @@ TEST(CoupledTest, FringeWithoutWaterIsAnErrorThatNamesTheCell) {
 }
 
 TEST(CoupledTest, SerialWarnsOfWindowsTooLongForTheColumn) {
-  auto scene = top_scene(0.0);
+  auto scene = top_scene(1e-9);  // which way is down, without a pressure worth mentioning
   const FlowFunction<2> rest = [](const std::array<double, 2>&, double) { return PointState<2>{}; };
   for (const bool too_long : {false, true}) {
     scene.coupling.schedule.schedule = Schedule::serial;
-    scene.coupling.window.dt = too_long ? 0.01 : 0.005;  // 4H/c = .2 s
+    scene.coupling.window.dt = too_long ? 0.04 : 0.02;  // 4H/c = .8 s
     auto stepper = test::stepper_for<2>({water_box<2>(10, true)}, scene, rest);
     Coupled<2> coupled(
         scene, 10.0,
@@ -294,6 +294,35 @@ TEST(CoupledTest, ForcedStreamStays) {
   coupled.begin(stepper);
   march(coupled, stepper, 5);
   EXPECT_LT(largest_difference<2>(stepper, stream, 1000.0), 1e-10);
+}
+
+/// Gives no sample at every second target.
+class HalfDry : public Inspector {
+ public:
+  using Inspector::Inspector;
+  void receive(const coupler::Window& window, coupler::Samples& samples) override {
+    Inspector::receive(window, samples);
+    for (std::size_t i = 0; i < samples.status.size(); i += 2) samples.status[i] = coupler::SampleStatus::dry;
+  }
+};
+
+TEST(CoupledTest, CellsWithoutASampleAreNotForced) {
+  auto scene = scene_with(2, {{0.25, 0, 0.25}, {0.75, 0, 0.75}});
+  scene.coupling.kind = support::Scene::CouplingKind::forced;
+  const FlowFunction<2> rest = [](const std::array<double, 2>&, double) { return PointState<2>{}; };
+  auto stepper = test::stepper_for<2>({water_box<2>(16, false)}, scene, rest);
+  const auto flow = coupler::uniform_stream({0, 0, 0}, 0.0);
+  Coupled<2> coupled(
+      scene, 10.0,
+      std::make_unique<HalfDry>(coupler::analytic_sph_partner(flow, test::plan_of(scene)), flow));
+  coupled.begin(stepper);
+  march(coupled, stepper, 2);
+  const Block<2>& block = stepper.blocks()[0];
+  int forced = 0, free = 0;
+  for (std::size_t c = 0; c < block.extent.size; ++c)
+    if (block.status[c] == CellStatus::forced) ++(stepper.forcing()[0].rate[c] > 0.0 ? forced : free);
+  EXPECT_EQ(forced, 32);
+  EXPECT_EQ(free, 32);
 }
 
 }  // namespace
