@@ -12,6 +12,7 @@
 #include "io/checkpoint.hpp"
 #include "littoral/coupler/job.hpp"
 #include "littoral/error.hpp"
+#include "littoral/support/due.hpp"
 #include "setup.hpp"
 #include "version.hpp"
 
@@ -69,6 +70,7 @@ void Solver<D>::run(Companion<D>& companion) {
   check_blocks<D>(stepper_.blocks(), scene_);
   if (restarted_) companion.load(support::CheckpointReader(restart_));
   output_ = std::make_unique<Output<D>>(folder_, config_, scene_, stepper_, timers_, restarted_);
+  if (restarted_) output_->set_last_fields(support::CheckpointReader(restart_).number("output/last_fields"));
   std::ptrdiff_t cells = 0;
   for (const auto& block : stepper_.blocks()) cells += block.extent.cells();
   log_.info(format("%s: %td cells in %zu blocks, %d threads, %s", scene_.title.c_str(), cells,
@@ -104,7 +106,10 @@ void Solver<D>::step(const coupler::Agreement& agreement, Companion<D>& companio
   output_->after(agreement, stepper_, outcome, companion.waited());
   if (agreement.checkpoint) {
     write_checkpoint<D>(output_->checkpoint_path(window_), stepper_, window_, scene_,
-                        [&](support::CheckpointWriter& file) { companion.save(file); });
+                        [&](support::CheckpointWriter& file) {
+                          companion.save(file);
+                          file.put("output/last_fields", output_->last_fields());
+                        });
     last_checkpoint_ = stepper_.time();
   }
 }
@@ -121,10 +126,11 @@ coupler::Proposal Solver<D>::propose() const {
           rate, convective_rate<D>(stepper_.blocks()[b], stepper_.state()[b], scene_.reference_velocity));
     mine.dt_stable = *config_.time.cfl / rate;
   }
-  // the length of the coming window is not known yet: as long as the last one
-  const double next = stepper_.time() + stepper_.last_dt();
-  const double interval = scene_.time.checkpoint_interval;
-  mine.checkpoint = interval > 0.0 && next - last_checkpoint_ >= interval * (1.0 - 1e-9);
+  // a window whose length the particles decide: as long as the last one
+  const double length = scene_.has_region() ? stepper_.last_dt() : mine.dt_stable;
+  const double next = support::expected_end(scene_, stepper_.time(), length);
+  mine.write = output_->fields_due(next);
+  mine.checkpoint = support::due(last_checkpoint_, next, scene_.time.checkpoint_interval);
   return mine;
 }
 

@@ -8,6 +8,7 @@
 
 #include "littoral/coupler/job.hpp"
 #include "littoral/error.hpp"
+#include "littoral/support/due.hpp"
 #include "littoral/support/summary.hpp"
 #include "littoral/support/timers.hpp"
 #include "particles/lattice.hpp"
@@ -129,9 +130,10 @@ coupler::Agreement Solver<D>::agree() {
   const auto& end = config_.scene.time;
   coupler::Proposal mine;
   mine.dt_stable = dynamics_.stable_time_step();
-  mine.write = output_.fields_due(time_ + mine.dt_stable);
-  mine.checkpoint = end.checkpoint_interval > 0.0 &&
-                    time_ + mine.dt_stable >= last_checkpoint_ + end.checkpoint_interval * (1.0 - 1e-9);
+  const int substeps = partner_ ? config_.scene.coupling.window.substeps : 1;
+  const double next = support::expected_end(config_.scene, time_, substeps * mine.dt_stable);
+  mine.write = output_.fields_due(next);
+  mine.checkpoint = support::due(last_checkpoint_, next, end.checkpoint_interval);
   if (time_ >= end.end * (1.0 - 1e-12))
     mine.stop = true, mine.reason = "the end of the scene's time is reached";
   const std::int64_t first_window = restart_ ? restart_->window : 0;

@@ -164,7 +164,8 @@ template <int D>
 void Coupled<D>::warn_of_long_windows(double dt) {
   constexpr double k_enough = 25.0;
   const Schedule schedule = scene_.coupling.schedule.schedule;
-  if (warned_ || !(column_depth_ > 0.0) || (schedule != Schedule::serial && schedule != Schedule::concurrent)) return;
+  if (warned_ || !(column_depth_ > 0.0) || (schedule != Schedule::serial && schedule != Schedule::concurrent))
+    return;
   const double windows = 4.0 * column_depth_ / (scene_.fluid.sound_speed * dt);
   if (windows >= k_enough) return;
   warned_ = true;

@@ -44,7 +44,7 @@ class TargetCells {
   std::vector<Imposed<D>> before_;      // values one window ago
   using Mask = std::vector<std::vector<std::uint8_t>>;
   Mask known_, known_now_, known_before_;  // of the samples last received, of now_, of before_
-  double dt_before_ = 0.0;              // [s] that window's length; 0: there was none
+  double dt_before_ = 0.0;                 // [s] that window's length; 0: there was none
 };
 
 }  // namespace littoral::fv

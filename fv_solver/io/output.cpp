@@ -8,6 +8,7 @@
 #include "io/checkpoint.hpp"
 #include "io/fields.hpp"
 #include "littoral/error.hpp"
+#include "littoral/support/due.hpp"
 
 namespace littoral::fv {
 namespace {
@@ -30,13 +31,6 @@ std::vector<std::string> named_walls(const FvConfig& config, const std::vector<B
         walls.push_back(w.name);
     }
   return walls;
-}
-
-/// Whether a multiple of `interval` lies in (before, now]; times are sums of steps, hence the tolerance.
-bool crosses(double before, double now, double interval) {
-  if (interval <= 0.0) return false;
-  constexpr double k_round_off = 1e-9;
-  return std::floor(now / interval + k_round_off) > std::floor(before / interval + k_round_off);
 }
 
 support::CsvSeries series(const std::string& path, const std::vector<std::string>& columns,
@@ -134,12 +128,10 @@ void Output<D>::first(const Stepper<D>& stepper, double waited) {
 template <int D>
 void Output<D>::after(const coupler::Agreement& agreement, const Stepper<D>& stepper,
                       const StepReport& report, double waited) {
-  const bool due = write_due(stepper.time()) || agreement.write;
-  if (++rows_skipped_ >= options_.scalars_every || due) {
-    row(stepper, report, waited);
-    rows_skipped_ = 0;
-  }
-  if (due) fields(stepper);
+  // counted from the start, so that a continued run writes the rows it would have written
+  const bool row_due = (agreement.window.index + 1) % options_.scalars_every == 0;
+  if (row_due || agreement.write) row(stepper, report, waited);
+  if (agreement.write) fields(stepper);
 }
 
 template <int D>
@@ -148,8 +140,8 @@ void Output<D>::last(const Stepper<D>& stepper) {
 }
 
 template <int D>
-bool Output<D>::write_due(double time) const {
-  return crosses(fields_written_at_, time, scene_.time.field_interval);
+bool Output<D>::fields_due(double time) const {
+  return fields_ && support::due(fields_written_at_, time, scene_.time.field_interval);
 }
 
 template <int D>

@@ -17,7 +17,7 @@
 
 namespace littoral::fv {
 
-/// Everything a run leaves in OUT/fv: scalars.csv, gauges.csv, fields, checkpoints. Knows when each is due.
+/// Everything a run leaves in OUT/fv: scalars.csv, gauges.csv, fields, checkpoints.
 template <int D>
 class Output {
  public:
@@ -27,10 +27,16 @@ class Output {
 
   /// Row, gauges and fields of the start.
   void first(const Stepper<D>& stepper, double waited);
-  /// After a window: what is due, or asked for by the agreement.
+  /// After a window: rows that are due, fields where the agreement says so.
   void after(const coupler::Agreement& agreement, const Stepper<D>& stepper, const StepReport& report,
              double waited);
   void last(const Stepper<D>& stepper);
+
+  /// True if fields are due in a window that ends at `time`.
+  bool fields_due(double time) const;
+  double last_fields() const { return fields_written_at_; }  ///< time of the last fields [s]
+  /// Of the run that this one continues.
+  void set_last_fields(double time) { fields_written_at_ = time; }
 
   const Integrals& integrals() const { return integrals_; }
   std::string checkpoint_path(std::int64_t window) const;
@@ -38,7 +44,6 @@ class Output {
  private:
   void row(const Stepper<D>& stepper, const StepReport& report, double waited);
   void fields(const Stepper<D>& stepper);
-  bool write_due(double time) const;
 
   std::string folder_;
   support::Scene scene_;
@@ -50,7 +55,6 @@ class Output {
   std::optional<support::CsvSeries> scalars_, gauge_rows_;
   std::optional<support::FieldSeries> fields_;
   Integrals integrals_;
-  long rows_skipped_ = 0;
   double fields_written_at_ = -1.0;  // [s]
 };
 

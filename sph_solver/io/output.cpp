@@ -4,6 +4,7 @@
 
 #include "io/energies.hpp"
 #include "io/gauges.hpp"
+#include "littoral/support/due.hpp"
 #include "littoral/support/timers.hpp"
 
 namespace littoral::sph {
@@ -100,8 +101,7 @@ Output<D>::Output(const std::string& folder, const RunConfig& config, const std:
 
 template <int D>
 bool Output<D>::fields_due(double time) const {
-  const double interval = config_.scene.time.field_interval;
-  return interval > 0.0 && time >= last_fields_ + interval * (1.0 - 1e-9);
+  return support::due(last_fields_, time, config_.scene.time.field_interval);
 }
 
 template <int D>
