@@ -50,14 +50,8 @@ void CouplingHooks<D>::adjust_surface(Particles<D>& particles, double t) {
     Point<D> normal{};
     double length = 0.0;
     for (std::size_t d = 0; d < D; ++d) {
-      double phi[2] = {here->phi, here->phi};
-      for (int side = 0; side < 2; ++side) {
-        Point<D> beside = x;
-        beside[d] += (side == 0 ? -0.5 : 0.5) * spacing_;
-        std::int64_t hint = particles.donor_hint[i];
-        if (const auto state = fv_.at(to_vec3<D>(beside), t, hint)) phi[side] = state->phi;
-      }
-      normal[d] = phi[1] - phi[0];
+      normal[d] = phi_slope(fv_, to_vec3<D>(x), here->phi, space_axis<D>(d), 0.5 * spacing_, t,
+                            particles.donor_hint[i]);
       length += normal[d] * normal[d];
     }
     if (length <= 0.0) continue;

@@ -4,6 +4,21 @@
 
 namespace littoral::sph {
 
+double phi_slope(const Exterior& fv, const coupler::Vec3& x, double phi_here, std::size_t axis, double half,
+                 double time, std::int64_t hint) {
+  double change = 0.0, length = 0.0;
+  for (const double sign : {-1.0, 1.0}) {
+    coupler::Vec3 beside = x;
+    beside[axis] += sign * half;
+    std::int64_t memory = hint;
+    const auto state = fv.at(beside, time, memory);
+    if (!state) continue;
+    change += sign * (state->phi - phi_here);
+    length += half;
+  }
+  return length > 0.0 ? change / length : 0.0;
+}
+
 DonorField::DonorField(const support::Scene& scene)
     : dimension_(scene.dimension), lower_(scene.domain.lower), period_{} {
   for (std::size_t d = 0; d < 3; ++d)

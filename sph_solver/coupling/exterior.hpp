@@ -22,6 +22,12 @@ class Exterior {
   virtual bool with_phi() const = 0;
 };
 
+/// Change of phi per length along direction `axis` (of space) at x, from the values `half` to either side;
+/// where FV has no state on one side, from x and the other. 0 where it has none on both. hint: a copy of the
+/// one at x.
+double phi_slope(const Exterior& fv, const coupler::Vec3& x, double phi_here, std::size_t axis, double half,
+                 double time, std::int64_t hint);
+
 /// The exterior out of donor cells: trilinear in space, linear in time (24).
 class DonorField final : public Exterior {
  public:

@@ -66,32 +66,25 @@ double FaceElements<D>::wet_part(const Exterior& fv, std::size_t e, double phi_c
   double reach = 0.0;
   for (double h : element.half) reach += h * h;
   if (std::fabs(phi_centre) >= std::sqrt(reach)) return phi_centre < 0.0 ? 1.0 : 0.0;
-  // phi is a distance, linear over an element: its gradient from the ends, then Heaviside on sub-points.
-  Point<D> slope{};
-  for (std::size_t d = 0; d < D; ++d) {
-    if (element.half[d] == 0.0) continue;
-    double phi[2] = {phi_centre, phi_centre};
-    for (int s = 0; s < 2; ++s) {
-      Point<D> x = element.centre;
-      x[d] += (s == 0 ? -1.0 : 1.0) * element.half[d];
-      std::int64_t hint = hint_[e];
-      if (const auto state = fv.at(to_vec3<D>(x), time, hint)) phi[s] = state->phi;
-    }
-    slope[d] = 0.5 * (phi[1] - phi[0]);
-  }
-  constexpr int n = 16;  // sub-points a direction: 6% of an element in 2-D where it is cut exactly below
+  // phi is linear over so small an element: what it changes by from the centre to each end
+  Point<D> change{};
+  for (std::size_t d = 0; d < D; ++d)
+    if (element.half[d] > 0.0)
+      change[d] = element.half[d] * phi_slope(fv, to_vec3<D>(element.centre), phi_centre, space_axis<D>(d),
+                                              element.half[d], time, hint_[e]);
   if constexpr (D == 2) {
-    const double total = std::fabs(slope[1 - element.axis]);  // phi from the centre to an end
+    const double total = std::fabs(change[1 - element.axis]);
     if (total == 0.0) return phi_centre < 0.0 ? 1.0 : 0.0;
     return std::clamp(0.5 - 0.5 * phi_centre / total, 0.0, 1.0);
   } else {
+    constexpr int n = 16;  // sub-points a direction: the share is known to 1/32
     const std::size_t a = (element.axis + 1) % 3, b = (element.axis + 2) % 3;
     int wet = 0;
     for (int i = 0; i < n; ++i)
       for (int j = 0; j < n; ++j) {
         const double s = (2 * i + 1 - n) / static_cast<double>(n),
                      t = (2 * j + 1 - n) / static_cast<double>(n);
-        if (phi_centre + s * slope[a] + t * slope[b] < 0.0) ++wet;
+        if (phi_centre + s * change[a] + t * change[b] < 0.0) ++wet;
       }
     return wet / static_cast<double>(n * n);
   }

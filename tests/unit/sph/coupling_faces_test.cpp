@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "coupling/coupling_hooks.hpp"
 #include "coupling/face_elements.hpp"
 #include "coupling_support.hpp"
 #include "littoral/error.hpp"
@@ -49,6 +50,19 @@ TEST(FaceElementsTest, CountOnlyTheWetPart) {  // (19)
   EXPECT_DOUBLE_EQ(faces.mass(3), 0.0);
 }
 
+TEST(FaceElementsTest, WetPartIsRightWhereTheGridKnowsOneEndOnly) {  // (19)
+  const auto layers = test::unit_box<2>({{{true, false}, {false, false}}}, 0.25, 0.25);
+  FaceElements<2> faces(layers, 0.25);
+  const test::FormulaExterior fv(
+      [](const coupler::Vec3& x, double) -> std::optional<coupler::DonorState> {
+        if (x[2] > 0.7) return std::nullopt;  // FV has no state in the air
+        return coupler::DonorState{0.0, {1.0, 0.0, 0.0}, x[2] - 0.55};
+      },
+      true);
+  faces.integrate(fv, k_eos, 0.0, 1.0);
+  EXPECT_NEAR(faces.mass(2), 50.0, 1e-9);  // wet from .50 to .55, as with both ends
+}
+
 TEST(FaceElementsTest, CutElementInSpaceCountsItsWetShare) {  // (19)
   const auto layers = test::unit_box<3>({{{true, false}, {false, false}, {false, false}}}, 0.25, 0.25);
   FaceElements<3> faces(layers, 1.0);
@@ -85,6 +99,27 @@ TEST(FaceElementsTest, RestoreToTheBit) {
   for (std::size_t e = 0; e < faces.size(); ++e) EXPECT_EQ(faces.mass(e), other.mass(e));
   EXPECT_EQ(faces.flux(), other.flux());
   EXPECT_THROW(other.unpack({1.0, 2.0, 3.0, 4.0}), IoError);
+}
+
+TEST(CouplingHooksTest, NormalIsPhisGradientWhereTheGridKnowsOneSideOnly) {
+  Numerics<2> numerics;
+  numerics.eos = k_eos;
+  numerics.spacing = 0.1;
+  numerics.kernel_radius = 0.4;
+  const test::FormulaExterior fv(
+      [](const coupler::Vec3& x, double) -> std::optional<coupler::DonorState> {
+        if (x[2] > 0.51) return std::nullopt;
+        return coupler::DonorState{0.0, {}, 0.8 * (x[2] - 0.52) + 0.6 * (x[0] + 0.4)};
+      },
+      true);
+  const auto layers = test::unit_box<2>({{{true, false}, {false, false}}}, 0.25, 0.25);
+  CouplingHooks<2> hooks(layers, numerics, fv, Removal::crossing);
+  Particles<2> particles;
+  particles.append({{-0.4, 0.5}, {}, 0.01, 10.0, 0.0, Zone::driven});
+  hooks.adjust_surface(particles, 0.0);
+  ASSERT_EQ(particles.surface[0], SurfaceFlag::surface);
+  EXPECT_NEAR(particles.normal[0][0], 0.6, 1e-12);
+  EXPECT_NEAR(particles.normal[1][0], 0.8, 1e-12);
 }
 
 }  // namespace
