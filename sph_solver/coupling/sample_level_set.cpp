@@ -9,13 +9,18 @@
 namespace littoral::sph {
 
 template <int D>
-void sample_level_set(const Particles<D>& particles, const SampleRules& rules, double spacing, double band,
-                      const coupler::Targets& targets, coupler::Samples& samples) {
+void sample_level_set(const Particles<D>& particles, const Ghosts<D>& ghosts, const SampleRules& rules,
+                      double spacing, double band, const coupler::Targets& targets,
+                      coupler::Samples& samples) {
   const Kernel<D> kernel(rules.kernel_radius);
   std::array<std::vector<double>, D> x;
   std::vector<std::size_t> source;
-  for (std::size_t j = 0; j < particles.n_owned; ++j) {
-    if (particles.surface[j] != SurfaceFlag::surface) continue;
+  std::array<std::vector<double>, D> normal = particles.normal;
+  for (auto& component : normal) component.resize(particles.size());
+  ghosts.refresh_vector(normal, particles.n_owned);
+  for (std::size_t j = 0; j < particles.size(); ++j) {
+    const std::size_t flagged = j < particles.n_owned ? j : ghosts.source(j - particles.n_owned);
+    if (particles.surface[flagged] != SurfaceFlag::surface) continue;
     for (std::size_t d = 0; d < D; ++d) x[d].push_back(particles.x[d][j]);
     source.push_back(j);
   }
@@ -54,7 +59,7 @@ void sample_level_set(const Particles<D>& particles, const SampleRules& rules, d
     double sum = 0.0, weights = 0.0;
     visit(at<D>(x, nearest), kernel.R, [&](std::size_t s, double r2) {
       double distance = 0.0;  // (20), with the normal out of the water
-      for (std::size_t d = 0; d < D; ++d) distance += (target[d] - x[d][s]) * particles.normal[d][source[s]];
+      for (std::size_t d = 0; d < D; ++d) distance += (target[d] - x[d][s]) * normal[d][source[s]];
       const double weight = kernel.value(std::sqrt(r2));
       sum += weight * (distance - 0.5 * spacing);
       weights += weight;
@@ -63,9 +68,9 @@ void sample_level_set(const Particles<D>& particles, const SampleRules& rules, d
   }
 }
 
-template void sample_level_set<2>(const Particles<2>&, const SampleRules&, double, double,
+template void sample_level_set<2>(const Particles<2>&, const Ghosts<2>&, const SampleRules&, double, double,
                                   const coupler::Targets&, coupler::Samples&);
-template void sample_level_set<3>(const Particles<3>&, const SampleRules&, double, double,
+template void sample_level_set<3>(const Particles<3>&, const Ghosts<3>&, const SampleRules&, double, double,
                                   const coupler::Targets&, coupler::Samples&);
 
 }  // namespace littoral::sph

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "boundary/ghosts.hpp"
 #include "coupling/zones.hpp"
 #include "littoral/coupler/fields.hpp"
 #include "particles/particles.hpp"
@@ -22,8 +23,13 @@ struct SampleRules {
 /// Where the linear basis cannot be fitted (too few particles, or all on a line) Shepard's value serves;
 /// where the coverage sum(V W) is below a quarter, less than the corner of a body of water has, there is no
 /// value: the point is dry in a scene with a free surface, else uncovered. Points outside the nominal box and
-/// its blending layers are uncovered. in    particles of owned and copies, positions and states of `time` out
-/// samples: all but phi; same result on any number of threads comm  local. throws nothing
+/// its blending layers are uncovered.
+///
+/// in    particles, owned and copies, with positions and states of `time`
+///
+/// out   samples: all but phi; the same on any number of threads
+///
+/// comm  local. throws nothing
 template <int D>
 void sample_states(const Particles<D>& particles, const Layers<D>& layers, const SampleRules& rules,
                    const coupler::Targets& targets, coupler::Samples& samples);
@@ -31,9 +37,10 @@ void sample_states(const Particles<D>& particles, const Layers<D>& layers, const
 /// phi at the targets that want it, from the surface particles: (20), averaged with the kernel over the
 /// surface particles around the nearest one (a single particle's position is noise of .03 dx). Beyond `band`
 /// from the surface phi is +-band, its sign from the coverage.
-/// in    particles.surface, .normal of the owned; samples.coverage from sample_states
+/// in    particles.surface, .normal of the owned, and their copies; samples.coverage from sample_states
 template <int D>
-void sample_level_set(const Particles<D>& particles, const SampleRules& rules, double spacing, double band,
-                      const coupler::Targets& targets, coupler::Samples& samples);
+void sample_level_set(const Particles<D>& particles, const Ghosts<D>& ghosts, const SampleRules& rules,
+                      double spacing, double band, const coupler::Targets& targets,
+                      coupler::Samples& samples);
 
 }  // namespace littoral::sph

@@ -74,7 +74,8 @@ void WindowDriver<D>::send_samples(const coupler::Window& window, Particles<D>& 
   samples_.time = window.t_end;
   sample_states(particles, layers(), sample_rules_, partner_.targets(), samples_);
   if (with_phi_)
-    sample_level_set(particles, sample_rules_, spacing_, phi_band_, partner_.targets(), samples_);
+    sample_level_set(particles, dynamics.ghosts(), sample_rules_, spacing_, phi_band_, partner_.targets(),
+                     samples_);
   partner_.send(window, samples_);
 }
 

@@ -159,10 +159,48 @@ TEST(SamplesTest, LevelSetOfAPlaneAndACircle) {  // (20), gate 0.25 dx
   coupler::Samples samples;
   samples.resize(targets.size(), true);
   samples.coverage.assign(targets.size(), 1.0);
-  sample_level_set(particles, {SampleMethod::corrected, 4 * k_dx, true}, k_dx, 6 * k_dx, targets, samples);
+  sample_level_set(particles, Ghosts<2>(DomainBox<2>{}), {SampleMethod::corrected, 4 * k_dx, true}, k_dx,
+                   6 * k_dx, targets, samples);
   for (std::size_t t = 0; t < 3; ++t)
     EXPECT_NEAR(samples.phi[t], std::hypot(targets.x[t], targets.z[t]) - R, 0.25 * k_dx);
   EXPECT_EQ(samples.phi[3], -6 * k_dx) << "far inside: the band's end";
+}
+
+/// phi of a row of surface particles at the points, on [0, 1] with these conditions along x.
+coupler::Samples level_set_of_row(const std::function<double(double)>& z, double shift,
+                                  support::Scene::Side side, const coupler::Targets& targets) {
+  DomainBox<2> domain;
+  domain.lower = {0.0, -1.0};
+  domain.upper = {1.0, 2.0};
+  domain.sides[0] = {side, side};
+  domain.sides[1] = {support::Scene::Side::open, support::Scene::Side::open};
+  Particles<2> particles;
+  for (int k = 0; k < 20; ++k) {
+    const double x = (k + 0.5) * k_dx, slope = (z(x + 1e-6) - z(x - 1e-6)) / 2e-6;
+    const double moved = x + shift < 1.0 ? x + shift : x + shift - 1.0;
+    particles.append({{moved, z(x)}, {}, 1, 1, 0, {}});
+    particles.surface.back() = SurfaceFlag::surface;
+    particles.normal[0].back() = -slope / std::hypot(1.0, slope);
+    particles.normal[1].back() = 1.0 / std::hypot(1.0, slope);
+  }
+  Ghosts<2> ghosts(domain);
+  ghosts.create(particles, 4 * k_dx);
+  coupler::Samples samples;
+  samples.resize(targets.size(), true);
+  samples.coverage.assign(targets.size(), 1.0);
+  sample_level_set(particles, ghosts, {SampleMethod::corrected, 4 * k_dx, true}, k_dx, 3 * k_dx, targets,
+                   samples);
+  return samples;
+}
+
+TEST(SamplesTest, LevelSetDoesNotSeeWhereThePeriodBegins) {
+  const auto wave = [](double x) { return 0.5 + 0.05 * std::sin(2 * 3.14159265358979 * (x - 0.45)); };
+  const auto seam = points({{0.01, 0, 0.5}, {0.99, 0, 0.55}, {0.03, 0, 0.48}});
+  const auto inside = points({{0.51, 0, 0.5}, {0.49, 0, 0.55}, {0.53, 0, 0.48}});
+  const auto at_seam = level_set_of_row(wave, 0.5, support::Scene::Side::periodic, seam);
+  const auto away = level_set_of_row(wave, 0.0, support::Scene::Side::periodic, inside);
+  // the same particles seen from the same places: round-off of positions and of the order of the sum
+  for (std::size_t t = 0; t < seam.size(); ++t) EXPECT_NEAR(at_seam.phi[t], away.phi[t], 1e-12);
 }
 
 }  // namespace
