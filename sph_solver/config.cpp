@@ -18,6 +18,8 @@ const std::vector<std::pair<std::string, RiemannSolver>> k_riemann_solvers = {
     {"linearised", RiemannSolver::linearised}, {"low_dissipation", RiemannSolver::low_dissipation}};
 const std::vector<std::pair<std::string, GaugeConfig::Kind>> k_gauges = {
     {"point", GaugeConfig::Kind::point}, {"elevation", GaugeConfig::Kind::elevation}};
+const std::vector<std::pair<std::string, Config::InitialDistribution>> k_distributions = {
+    {"lattice", Config::InitialDistribution::lattice}, {"relaxed", Config::InitialDistribution::relaxed}};
 const std::vector<std::pair<std::string, Config::Precision>> k_precisions = {
     {"double", Config::Precision::in_double}};
 
@@ -30,6 +32,11 @@ void Config::bind(support::Binder& b) {
       .required()
       .exclusive_min(0)
       .doc("Particle spacing dx of the initial lattice.");
+  b.choice("initial_distribution", initial_distribution, k_distributions)
+      .doc(
+          "lattice: rows; relaxed: even, without rows that a vortex would strain apart. relaxed wants a "
+          "domain "
+          "full of water without open sides.");
   b.key("kernel_radius", kernel_radius)
       .unit("dx")
       .min(2)
@@ -94,6 +101,17 @@ RunConfig read_config(const std::string& path, const std::vector<std::string>& s
     throw ConfigError(
         document.resolve(config.sph.scene) +
         ": fluid.sound_speed is infinite; particles need a finite one, 10 times the highest speed.");
+  if (config.sph.initial_distribution == Config::InitialDistribution::relaxed) {
+    bool closed = !config.scene.has_free_surface();
+    for (std::size_t d = 0; d < 3; ++d)
+      if (config.scene.dimension == 3 || d != 1)
+        for (const auto side : config.scene.domain.sides[d])
+          closed = closed && side != support::Scene::Side::open;
+    if (!closed)
+      throw ConfigError(path +
+                        ": initial_distribution is relaxed, which wants a domain full of water without open "
+                        "sides. Use lattice here.");
+  }
   return config;
 }
 

@@ -25,6 +25,7 @@ struct GaugeConfig {
 struct Config {
   std::string scene = "scene.yaml";
   double spacing = 0.0;                 // dx [m]
+  enum class InitialDistribution { lattice, relaxed } initial_distribution = InitialDistribution::lattice;
   std::optional<double> kernel_radius;  // [dx]; absent: 4 in 2-D, 2.7 in 3-D
   Reconstruction reconstruction = Reconstruction::unlimited;
   RiemannSolver riemann = RiemannSolver::linearised;

@@ -12,6 +12,7 @@
 #include "littoral/support/summary.hpp"
 #include "littoral/support/timers.hpp"
 #include "particles/lattice.hpp"
+#include "particles/relaxation.hpp"
 
 namespace littoral::sph {
 
@@ -56,6 +57,10 @@ void Solver<D>::place_particles() {
   for (const auto& box : layers_.boxes())
     fill_lattice<D>(box.outer_lower, box.outer_upper, config_.sph.spacing, config_.scene,
                     dynamics_.numerics().eos, particles_);
+  if (config_.sph.initial_distribution == Config::InitialDistribution::relaxed) {
+    relax(particles_, dynamics_.numerics(), domain_of<D>(config_));
+    set_start_states(config_.scene, dynamics_.numerics().eos, particles_);
+  }
   if (particles_.n_owned == 0)
     throw ConfigError(
         "the scene has no particle at the start: initial.surface is not below 0 at any lattice point of the "

@@ -35,6 +35,23 @@ void fill_lattice(const std::array<double, D>& lower, const std::array<double, D
   }
 }
 
+template <int D>
+void set_start_states(const support::Scene& scene, const LinearEos& eos, Particles<D>& particles) {
+  const auto& start = scene.initial;
+  const std::array<const support::Formula*, 3> velocity = {&start.u, &start.v, &start.w};
+  for (std::size_t i = 0; i < particles.n_owned; ++i) {
+    std::array<double, 3> x{};
+    for (std::size_t d = 0; d < D; ++d) x[scene_axis<D>(d)] = particles.x[d][i];
+    for (std::size_t d = 0; d < D; ++d)
+      particles.u[d][i] = (*velocity[scene_axis<D>(d)])(x[0], x[1], x[2], 0.0);
+    particles.p[i] = start.p(x[0], x[1], x[2], 0.0);
+    particles.rho[i] = eos.density(particles.p[i]);
+    particles.m[i] = particles.rho[i] * particles.V[i];
+  }
+}
+
+template void set_start_states<2>(const support::Scene&, const LinearEos&, Particles<2>&);
+template void set_start_states<3>(const support::Scene&, const LinearEos&, Particles<3>&);
 template void fill_lattice<2>(const std::array<double, 2>&, const std::array<double, 2>&, double,
                               const support::Scene&, const LinearEos&, Particles<2>&);
 template void fill_lattice<3>(const std::array<double, 3>&, const std::array<double, 3>&, double,

@@ -14,6 +14,12 @@ template <int D>
 void fill_lattice(const std::array<double, D>& lower, const std::array<double, D>& upper, double spacing,
                   const support::Scene& scene, const LinearEos& eos, Particles<D>& particles);
 
+/// Gives the owned particles, wherever they are now, velocity, pressure and mass of the scene's start.
+template <int D>
+void set_start_states(const support::Scene& scene, const LinearEos& eos, Particles<D>& particles);
+
+extern template void set_start_states<2>(const support::Scene&, const LinearEos&, Particles<2>&);
+extern template void set_start_states<3>(const support::Scene&, const LinearEos&, Particles<3>&);
 extern template void fill_lattice<2>(const std::array<double, 2>&, const std::array<double, 2>&, double,
                                      const support::Scene&, const LinearEos&, Particles<2>&);
 extern template void fill_lattice<3>(const std::array<double, 3>&, const std::array<double, 3>&, double,
