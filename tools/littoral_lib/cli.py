@@ -30,6 +30,14 @@ class Parser(argparse.ArgumentParser):
                     yield from parser._actions
 
 
+
+def positive(text):
+    """A count from the command line: 1, 2, 3, ..."""
+    if not text.isdigit() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"'{text}' is no count; expected 1, 2, 3, ...")
+    return int(text)
+
+
 def add_scene_options(parser):
     parser.add_argument("scene", help="scene folder (scene.yaml with sph.yaml and/or fv.yaml), or a name in configs/")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE",
@@ -45,9 +53,9 @@ def build_parser():
                          "OUT/summary.json and OUT/scalars.csv. Exit status 0 only if the whole job succeeded.")
     add_scene_options(run)
     run.add_argument("--out", help="folder of the results (default: out/SCENE)")
-    run.add_argument("--sph-ranks", type=int, default=1, metavar="N", help="MPI ranks of sph_solver (default 1)")
-    run.add_argument("--fv-ranks", type=int, default=1, metavar="N", help="MPI ranks of fv_solver (default 1)")
-    run.add_argument("--threads", type=int, metavar="N", help="OpenMP threads a rank (default: all cores, in turns)")
+    run.add_argument("--sph-ranks", type=positive, default=1, metavar="N", help="MPI ranks of sph_solver (default 1)")
+    run.add_argument("--fv-ranks", type=positive, default=1, metavar="N", help="MPI ranks of fv_solver (default 1)")
+    run.add_argument("--threads", type=positive, metavar="N", help="OpenMP threads a rank (default: all cores, in turns)")
     run.add_argument("--restart", metavar="WINDOW", help="go on from this window's checkpoints, or from 'latest'")
     run.add_argument("--restart-from", metavar="DIR", help="folder of the checkpoints (default: the --out folder)")
     run.add_argument("--timeout", type=float, metavar="S", help="end the job after S seconds (status 124)")
@@ -80,7 +88,7 @@ def build_parser():
 
     bench = sub.add_parser("bench", help="run benchmarks", description="Run coupler_bench, sph_bench, fv_bench.")
     bench.add_argument("names", nargs="*", metavar="NAME", help="coupler, sph, fv (default: all that are built)")
-    bench.add_argument("--threads", type=int, metavar="N", help="OpenMP threads a rank (default 1)")
+    bench.add_argument("--threads", type=positive, metavar="N", help="OpenMP threads a rank (default 1)")
     bench.add_argument("--out", help="folder the programs run in")
     for parser_of in (run, check, verify, bench):
         parser_of.add_argument("--bin", metavar="DIR",
