@@ -103,6 +103,8 @@ void compute_boundary_fluxes(const Block<D>& block, const Fluid<D>& fluid, const
           break;
         }
         case Condition::far_field: {
+          // still water needs a wave speed too: a small part of the flow's, as wave_speed: 0 documents
+          constexpr double k_least_wave_speed = 0.1;
           FaceState<D> far;
           double speed = 0.0;
           far.p = w.given_p[0][given];
@@ -112,7 +114,8 @@ void compute_boundary_fluxes(const Block<D>& block, const Fluid<D>& fluid, const
             speed += far.u[k] * far.u[k];
           }
           in.p = p[i0];
-          const double c = w.wave_speed > 0.0 ? w.wave_speed : std::max(std::sqrt(speed), 0.1 * speeds.c0);
+          const double c =
+              w.wave_speed > 0.0 ? w.wave_speed : std::max(std::sqrt(speed), k_least_wave_speed * speeds.c0);
           const double flow_in = through<D>(in.u, area), flow_far = through<D>(far.u, area);
           const double flow =
               0.5 * (flow_in + flow_far) + 0.5 * frame.measure * (in.p - far.p) / (fluid.density * c);
