@@ -12,6 +12,7 @@
 #include "littoral/support/options.hpp"
 #include "littoral/support/partner_choice.hpp"
 #include "littoral/support/run_plan.hpp"
+#include "prediction.hpp"
 #include "solver.hpp"
 
 namespace littoral::sph {
@@ -48,9 +49,11 @@ void run(coupler::Job& job, const support::ProgramOptions& options, const RunCon
   solver.run();
 }
 
-/// What --check can find without placing particles.
-void check(const RunConfig& config) {
-  config.scene.dimension == 2 ? (void)domain_of<2>(config) : (void)domain_of<3>(config);
+/// What can be found without placing particles.
+template <int D>
+void check(const RunConfig& config, bool coupled) {
+  (void)domain_of<D>(config);
+  (void)region_of<D>(config, coupled);
 }
 
 }  // namespace
@@ -68,14 +71,17 @@ int run_program(coupler::Job& job, int argc, char** argv) {
     return 0;
   }
   const RunConfig config = read_config(options.config, options.settings, options.scene_settings);
-  check(config);
-  support::planned_partner(coupler::Role::sph, config.scene, config.sph.coupling.partner, options);
+  const auto player =
+      support::planned_partner(coupler::Role::sph, config.scene, config.sph.coupling.partner, options);
+  const bool coupled = player != support::PartnerPlayer::nobody;
+  config.scene.dimension == 2 ? check<2>(config, coupled) : check<3>(config, coupled);
   if (options.print_config) {
     if (speaks) std::cout << resolved_text(config);
     return 0;
   }
   if (options.check) {
-    if (speaks) std::cout << options.config << ": no problem found\n";
+    const std::string prediction = predict(config, coupled).text();
+    if (speaks) std::cout << options.config << ": no problem found\n" << prediction;
     return 0;
   }
   if (job.size() > 1)

@@ -13,20 +13,9 @@
 #include "littoral/support/timers.hpp"
 #include "particles/lattice.hpp"
 #include "particles/relaxation.hpp"
+#include "prediction.hpp"
 
 namespace littoral::sph {
-
-namespace {
-
-/// The region of the particles: with a partner the scene's boxes and layers, alone the whole domain.
-template <int D>
-Layers<D> region_of(const RunConfig& config, bool coupled) {
-  support::Scene scene = config.scene;
-  if (!coupled) scene.coupling.kind = support::Scene::CouplingKind::none;
-  return Layers<D>::from_scene(scene, numerics_of<D>(config).kernel_radius);
-}
-
-}  // namespace
 
 template <int D>
 Solver<D>::Solver(const RunConfig& config, const std::string& folder, support::Log& log,
@@ -54,18 +43,10 @@ Solver<D>::Solver(const RunConfig& config, const std::string& folder, support::L
 
 template <int D>
 void Solver<D>::place_particles() {
-  for (const auto& box : layers_.boxes())
-    fill_lattice<D>(box.outer_lower, box.outer_upper, config_.sph.spacing, config_.scene,
-                    dynamics_.numerics().eos, particles_);
-  if (config_.sph.initial_distribution == Config::InitialDistribution::relaxed) {
-    relax(particles_, dynamics_.numerics(), domain_of<D>(config_));
-    set_start_states(config_.scene, dynamics_.numerics().eos, particles_);
-  }
-  if (particles_.n_owned == 0)
-    throw ConfigError(
-        "the scene has no particle at the start: initial.surface is not below 0 at any lattice point of the "
-        "region. "
-        "Check its sign (water where it is negative), the region's box and the spacing.");
+  sph::place_particles<D>(config_, layers_, particles_);
+  if (config_.sph.initial_distribution != Config::InitialDistribution::relaxed) return;
+  relax(particles_, dynamics_.numerics(), domain_of<D>(config_));
+  set_start_states(config_.scene, dynamics_.numerics().eos, particles_);
 }
 
 template <int D>

@@ -1,0 +1,76 @@
+#include "prediction.hpp"
+
+#include <cmath>
+#include <sstream>
+
+#include "littoral/error.hpp"
+#include "particles/lattice.hpp"
+#include "physics/dynamics.hpp"
+
+namespace littoral::sph {
+
+template <int D>
+Layers<D> region_of(const RunConfig& config, bool coupled) {
+  support::Scene scene = config.scene;
+  if (!coupled) scene.coupling.kind = support::Scene::CouplingKind::none;
+  return Layers<D>::from_scene(scene, numerics_of<D>(config).kernel_radius);
+}
+
+template <int D>
+void place_particles(const RunConfig& config, const Layers<D>& layers, Particles<D>& particles) {
+  for (const auto& box : layers.boxes())
+    fill_lattice<D>(box.outer_lower, box.outer_upper, config.sph.spacing, config.scene,
+                    numerics_of<D>(config).eos, particles);
+  if (particles.n_owned == 0)
+    throw ConfigError(
+        "the scene has no particle at the start: initial.surface is not below 0 at any lattice point of the "
+        "region. Check its sign (water where it is negative), the region's box and the spacing.");
+}
+
+namespace {
+
+/// Bytes a particle takes: columns of particles, stages, gradients and surface, and its row in the lists.
+template <int D>
+double bytes_of_particle(const Numerics<D>& numerics) {
+  constexpr int state = 4 * D + 7, stages = 4 * D + 2, rate = D + 1, gradients = D + D * D;
+  constexpr int surface = D * (D + 1) / 2 + D + 3, lists = 2 * D + 3;
+  const double pi = std::acos(-1.0);
+  const double reach = (numerics.kernel_radius + numerics.skin) / numerics.spacing;
+  const double neighbors = D == 2 ? pi * reach * reach : 4.0 / 3.0 * pi * reach * reach * reach;
+  return sizeof(double) * (state + stages + rate + gradients + surface + lists) +
+         sizeof(std::int32_t) * neighbors;
+}
+
+template <int D>
+Prediction predict_in(const RunConfig& config, bool coupled) {
+  Particles<D> particles;
+  const Dynamics<D> dynamics(numerics_of<D>(config), domain_of<D>(config));
+  place_particles<D>(config, region_of<D>(config, coupled), particles);
+  Prediction prediction;
+  prediction.particles = particles.n_owned;
+  prediction.dt = dynamics.stable_time_step();
+  prediction.steps = std::ceil(config.scene.time.end / prediction.dt);
+  prediction.memory = static_cast<double>(particles.n_owned) * bytes_of_particle<D>(dynamics.numerics());
+  return prediction;
+}
+
+}  // namespace
+
+Prediction predict(const RunConfig& config, bool coupled) {
+  return config.scene.dimension == 2 ? predict_in<2>(config, coupled) : predict_in<3>(config, coupled);
+}
+
+std::string Prediction::text() const {
+  constexpr double mebibyte = 1024.0 * 1024.0;
+  std::ostringstream lines;
+  lines << "particles: " << particles << "\ndt: at most " << dt << " s\nsteps: at least " << steps
+        << "\nmemory: about " << std::ceil(memory / mebibyte) << " MiB\n";
+  return lines.str();
+}
+
+template Layers<2> region_of<2>(const RunConfig&, bool);
+template Layers<3> region_of<3>(const RunConfig&, bool);
+template void place_particles<2>(const RunConfig&, const Layers<2>&, Particles<2>&);
+template void place_particles<3>(const RunConfig&, const Layers<3>&, Particles<3>&);
+
+}  // namespace littoral::sph

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "config.hpp"
+#include "coupling/zones.hpp"
+#include "particles/particles.hpp"
+
+namespace littoral::sph {
+
+/// The region of the particles: with a partner the scene's boxes and layers, alone the whole domain.
+/// throws ConfigError: layers that do not fit, or thinner than the kernel needs
+template <int D>
+Layers<D> region_of(const RunConfig& config, bool coupled);
+
+/// The particles at the start. throws ConfigError: there is none
+template <int D>
+void place_particles(const RunConfig& config, const Layers<D>& layers, Particles<D>& particles);
+
+/// What a run will be, before it is one.
+struct Prediction {
+  std::size_t particles = 0;  // at the start
+  double dt = 0.0;            // [s] the particles' limit at rest; forces or a partner may ask for less
+  double steps = 0.0;         // of this dt, to the scene's end
+  double memory = 0.0;        // [bytes] of particles, stages and lists, copies apart
+
+  std::string text() const;  ///< a line each
+};
+
+/// Builds what the run builds at its start, and so finds what it would refuse.
+/// throws ConfigError as region_of, place_particles, domain_of
+Prediction predict(const RunConfig& config, bool coupled);
+
+}  // namespace littoral::sph
