@@ -76,7 +76,7 @@ int run(coupler::Job& job, int argc, char** argv) {
     if (speaks) {
       support::Binder help(support::Binder::Mode::help);
       FvConfig().bind(help);
-      std::fputs(help.text().c_str(), stdout);
+      std::printf("# fv.yaml\n%s\n# scene.yaml\n%s", help.text().c_str(), support::Scene::help().c_str());
     }
     return 0;
   }

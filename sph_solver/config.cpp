@@ -129,7 +129,7 @@ std::string help_text() {
   support::Binder binder(support::Binder::Mode::help);
   Config config;
   config.bind(binder);
-  return binder.text();
+  return "# sph.yaml\n" + binder.text() + "\n# scene.yaml\n" + support::Scene::help();
 }
 
 template <int D>

@@ -24,7 +24,7 @@ struct GaugeConfig {
 /// Content of sph.yaml.
 struct Config {
   std::string scene = "scene.yaml";
-  double spacing = 0.0;                 // dx [m]
+  double spacing = 0.0;  // dx [m]
   enum class InitialDistribution { lattice, relaxed } initial_distribution = InitialDistribution::lattice;
   std::optional<double> kernel_radius;  // [dx]; absent: 4 in 2-D, 2.7 in 3-D
   Reconstruction reconstruction = Reconstruction::unlimited;
@@ -52,7 +52,7 @@ struct RunConfig {
 RunConfig read_config(const std::string& path, const std::vector<std::string>& settings,
                       const std::vector<std::string>& scene_settings);
 std::string resolved_text(RunConfig config);  ///< YAML of both, every key
-std::string help_text();                      ///< every key of sph.yaml
+std::string help_text();                      ///< every key of sph.yaml and scene.yaml
 
 template <int D>
 Numerics<D> numerics_of(const RunConfig& config);

@@ -140,6 +140,12 @@ Scene Scene::from_file(const std::string& path, const std::vector<std::string>& 
   return scene;
 }
 
+std::string Scene::help() {
+  Binder binder(Binder::Mode::help);
+  Scene().bind(binder);
+  return binder.text();
+}
+
 std::string Scene::resolved() const {
   Binder binder(Binder::Mode::resolved);
   Scene copy = *this;  // bind() takes references to members; in this mode it only reads them

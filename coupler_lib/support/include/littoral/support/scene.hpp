@@ -93,6 +93,7 @@ struct Scene {
 
   void bind(Binder& b);
   /// The whole scene as YAML that reads back to the same values.
+  static std::string help();  ///< every key of scene.yaml, with type, unit, range and default
   std::string resolved() const;
   /// Reads and checks scene.yaml; `settings` are the --set that name scene keys ("scene.fluid.density=1").
   /// throws ConfigError with all problems
