@@ -20,8 +20,6 @@ const std::vector<std::pair<std::string, GaugeConfig::Kind>> k_gauges = {
     {"point", GaugeConfig::Kind::point}, {"elevation", GaugeConfig::Kind::elevation}};
 const std::vector<std::pair<std::string, Config::InitialDistribution>> k_distributions = {
     {"lattice", Config::InitialDistribution::lattice}, {"relaxed", Config::InitialDistribution::relaxed}};
-const std::vector<std::pair<std::string, Config::Precision>> k_precisions = {
-    {"double", Config::Precision::in_double}};
 
 }  // namespace
 
@@ -62,7 +60,6 @@ void Config::bind(support::Binder& b) {
         .max(4)
         .doc("Reach of the lists beyond the kernel; a wider skin lets them live longer.");
   });
-  b.choice("precision", precision, k_precisions).doc("Of the pair loops.");
   b.section("output", "What is written besides scalars.", [&] {
     b.key("fields", fields)
         .doc("Of the particles: velocity, pressure, density, volume, zone, surface, normal, shift, id.");

@@ -34,7 +34,6 @@ struct Config {
   double viscous_cfl = 0.12;
   double force_cfl = 0.25;
   double skin = 0.3;  // [dx]
-  enum class Precision { in_double } precision = Precision::in_double;
   std::vector<std::string> fields = {"velocity", "pressure"};
   std::vector<GaugeConfig> gauges;
   CouplingConfig coupling;
