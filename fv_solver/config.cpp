@@ -17,11 +17,17 @@ const std::vector<std::pair<std::string, int>> k_conditions = {
     {"far_field", static_cast<int>(Condition::far_field)},
     {"state", static_cast<int>(Condition::state)},
     {"periodic", static_cast<int>(Condition::periodic)},
-    {"fringe", static_cast<int>(Condition::fringe)}};
+    {"fringe", static_cast<int>(Condition::fringe)},
+    {"join", static_cast<int>(Condition::join)}};
 
 const std::array<std::string, 3> k_axes = {"x", "y", "z"};
 const std::vector<std::pair<std::string, int>> k_faces = {{"x_lower", 0}, {"x_upper", 1}, {"y_lower", 2},
                                                           {"y_upper", 3}, {"z_lower", 4}, {"z_upper", 5}};
+std::vector<std::pair<std::string, int>> faces_or_any() {
+  auto words = k_faces;
+  words.emplace_back("any", -1);
+  return words;
+}
 
 }  // namespace
 
@@ -47,7 +53,8 @@ void FaceConfig::bind(Binder& b) {
           "slip, u v w slide it; slip; symmetry; inflow: u v w given; outflow: p given; far_field: all "
           "given; "
           "state: all given in two layers of ghosts; periodic; fringe: none, for faces whose cells the "
-          "particles impose or blank.");
+          "particles impose or blank; join: the faces of another block (or of this one) that lie at the same "
+          "place, in any orientation; see join.");
   b.key("name", name).doc("Of the wall or opening, for forces and messages; left out: block.face.");
   b.key("u", u).unit("m/s").doc("Velocity along x on the face.");
   b.key("v", v).unit("m/s").doc("Velocity along y on the face; 3-D only.");
@@ -59,6 +66,15 @@ void FaceConfig::bind(Binder& b) {
       .doc(
           "far_field: speed of the Riemann problem; of the order of the stream's; 0: that of the given "
           "velocity.");
+  b.section("join", "With whom, condition join only. The orientation follows from the nodes and is reported.",
+            [&] {
+              b.key("block", join.block).doc("Name of the other block; left out: whichever is met.");
+              b.choice("face", join.face, faces_or_any())
+                  .doc("Face of that block; i, j, k are x, y, z (in 2-D x, z).");
+              b.key("offset", join.offset)
+                  .unit("m")
+                  .doc("A place here is one there plus this: joins any pair of faces as periodic.");
+            });
 }
 
 void BlockConfig::bind(Binder& b) {
@@ -93,6 +109,10 @@ void BlockConfig::bind(Binder& b) {
 
 void FvConfig::bind(Binder& b) {
   b.key("scene", scene).doc("The scene's file, relative to this one.");
+  b.choice("joins", joins, {{"auto", Joins::automatic}, {"listed", Joins::listed}})
+      .doc(
+          "auto: faces without a condition of their own are joined where their nodes meet those of another "
+          "face; listed: only faces with condition join are.");
   b.list<BlockConfig>("blocks", "Blocks of the grid.", blocks,
                       [](Binder& item, BlockConfig& block) { block.bind(item); });
   b.section("time", "Steps of a run without partner, and bounds on the windows of a coupled one.", [&] {

@@ -33,6 +33,11 @@ struct FaceConfig {
   std::optional<support::Formula> u, v, w;  // [m/s]
   std::optional<support::Formula> p;        // [Pa]
   double wave_speed = 0.0;                  // [m/s]
+  struct JoinTo {
+    std::string block;                         // "" : whoever is met
+    int face = -1;                             // 2 * direction + side as PatchConfig; -1: any
+    std::array<double, 3> offset = {0, 0, 0};  // [m] x here = x there + offset
+  } join;
   void bind(support::Binder& b);
 };
 
@@ -66,6 +71,8 @@ struct GaugeConfig {
 /// The content of fv.yaml.
 struct FvConfig {
   std::string scene = "scene.yaml";
+  enum class Joins : std::uint8_t { automatic, listed };
+  Joins joins = Joins::automatic;
   std::vector<BlockConfig> blocks;
 
   struct Time {

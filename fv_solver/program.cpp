@@ -41,8 +41,9 @@ void need_step(const ProgramOptions& options, const FvConfig& config, const supp
 
 /// What --check finds beyond reading: everything a run would refuse before its first window.
 template <int D>
-std::ptrdiff_t check_run(const FvConfig& config, const support::Scene& scene) {
-  Stepper<D> stepper = make_stepper<D>(config, scene);
+std::ptrdiff_t check_run(const FvConfig& config, const support::Scene& scene,
+                         std::vector<std::string>& notes) {
+  Stepper<D> stepper = make_stepper<D>(config, scene, &notes);
   if (scene.has_region()) {
     carve(stepper.blocks(), scene);
     check_layers_covered<D>(DonorOffer<D>(stepper.blocks()).geometry(), scene);
@@ -91,9 +92,12 @@ int run(coupler::Job& job, int argc, char** argv) {
   check_scene(scene);
   support::planned_partner(coupler::Role::fv, scene, config.partner, options);
   if (options.check) {
+    std::vector<std::string> notes;
     const std::ptrdiff_t cells =
-        scene.dimension == 2 ? check_run<2>(config, scene) : check_run<3>(config, scene);
-    if (speaks) std::printf("fv_solver: %s: no problem found; %td cells\n", options.config.c_str(), cells);
+        scene.dimension == 2 ? check_run<2>(config, scene, notes) : check_run<3>(config, scene, notes);
+    if (!speaks) return 0;
+    for (const std::string& note : notes) std::printf("fv_solver: %s\n", note.c_str());
+    std::printf("fv_solver: %s: no problem found; %td cells\n", options.config.c_str(), cells);
     return 0;
   }
   if (job.size() > 1)

@@ -5,6 +5,7 @@
 #include "boundary/ghosts.hpp"
 #include "dual_time/plain.hpp"
 #include "grid/box.hpp"
+#include "grid/find_joins.hpp"
 #include "grid/space.hpp"
 #include "implicit/multigrid_solver.hpp"
 #include "littoral/error.hpp"
@@ -31,25 +32,51 @@ double velocity_scale(const FvConfig& config, const support::Scene& scene) {
       "reference_velocity, or dual_time.pseudo_sound_speed");
 }
 
+/// A pressure that falls along gravity cannot be the same at both ends of a periodic pair.
+template <int D>
+void check_gravity(const std::vector<Block<D>>& blocks, const support::Scene& scene) {
+  for (const Block<D>& block : blocks)
+    for (const Window<D>& w : block.windows) {
+      if (w.condition != Condition::join) continue;
+      double along = 0.0, scale = 0.0;
+      for (std::size_t k = 0; k < D; ++k) {
+        along += w.join.offset[k] * scene.gravity[axis_in_space<D>(k)];
+        scale += std::abs(w.join.offset[k] * scene.gravity[axis_in_space<D>(k)]);
+      }
+      constexpr double k_round_off = 1e-12;
+      if (std::abs(along) > k_round_off * scale)
+        throw ConfigError("block '" + block.name + "', face '" + w.name +
+                          "' is joined with an offset along which gravity has a component: a hydrostatic "
+                          "pressure cannot be periodic. A driving force belongs into source");
+    }
+}
+
 }  // namespace
 
 template <int D>
-std::vector<Block<D>> build_blocks(const FvConfig& config, const support::Scene& scene) {
-  std::vector<Block<D>> blocks;
+Grid<D> build_grid(const FvConfig& config, const support::Scene& scene) {
+  Grid<D> grid;
   std::string problems;
+  Neighbourhood others;
+  others.automatic = config.joins == FvConfig::Joins::automatic;
+  others.alone = config.blocks.size() == 1;
   for (const BlockConfig& block : config.blocks) try {
-      blocks.push_back(build_block<D>(block, scene));
-      check_windows(blocks.back());
+      grid.blocks.push_back(build_block<D>(block, scene, others));
+      check_windows(grid.blocks.back());
     } catch (const ConfigError& problem) {
       problems += (problems.empty() ? "" : "\n") + std::string(problem.what());
     }
   if (!problems.empty()) throw ConfigError(problems);
-  return blocks;
+  grid.joins = find_joins(grid.blocks);
+  check_gravity<D>(grid.blocks, scene);
+  return grid;
 }
 
 template <int D>
-Stepper<D> make_stepper(const FvConfig& config, const support::Scene& scene) {
-  std::vector<Block<D>> blocks = build_blocks<D>(config, scene);
+Stepper<D> make_stepper(const FvConfig& config, const support::Scene& scene,
+                        std::vector<std::string>* notes) {
+  Grid<D> grid = build_grid<D>(config, scene);
+  if (notes != nullptr) *notes = grid.joins;
   Equations<D> equations;
   equations.fluid = fluid_of<D>(scene);
   equations.limiter = config.limiter;
@@ -67,7 +94,7 @@ Stepper<D> make_stepper(const FvConfig& config, const support::Scene& scene) {
   else
     solver = std::make_unique<MultigridSolver<D>>();
 
-  Stepper<D> stepper(std::move(blocks), equations, std::move(solver), tolerance);
+  Stepper<D> stepper(std::move(grid.blocks), equations, std::move(solver), tolerance);
   const auto initial = scene.initial;
   stepper.initialise(
       [&initial](const std::array<double, D>& at, double t) {
@@ -96,9 +123,9 @@ Stepper<D> make_stepper(const FvConfig& config, const support::Scene& scene) {
   return stepper;
 }
 
-template std::vector<Block<2>> build_blocks<2>(const FvConfig&, const support::Scene&);
-template std::vector<Block<3>> build_blocks<3>(const FvConfig&, const support::Scene&);
-template Stepper<2> make_stepper<2>(const FvConfig&, const support::Scene&);
-template Stepper<3> make_stepper<3>(const FvConfig&, const support::Scene&);
+template Grid<2> build_grid<2>(const FvConfig&, const support::Scene&);
+template Grid<3> build_grid<3>(const FvConfig&, const support::Scene&);
+template Stepper<2> make_stepper<2>(const FvConfig&, const support::Scene&, std::vector<std::string>*);
+template Stepper<3> make_stepper<3>(const FvConfig&, const support::Scene&, std::vector<std::string>*);
 
 }  // namespace littoral::fv

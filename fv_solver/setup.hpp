@@ -1,17 +1,28 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "config.hpp"
 #include "dual_time/stepper.hpp"
 
 namespace littoral::fv {
 
-/// The blocks of a configuration with their windows. throws ConfigError with the problems of all blocks
 template <int D>
-std::vector<Block<D>> build_blocks(const FvConfig& config, const support::Scene& scene);
+struct Grid {
+  std::vector<Block<D>> blocks;
+  std::vector<std::string> joins;  // one line a join found, for the log
+};
+
+/// The blocks of a configuration with their windows, joined. throws ConfigError with the problems of all
+/// blocks
+template <int D>
+Grid<D> build_grid(const FvConfig& config, const support::Scene& scene);
 
 /// The discrete problem of a configuration: blocks, fluid, wave speeds, inner solver, sources, initial state.
-/// throws ConfigError
+/// notes: gets what the user should know of the grid (joins found); may be null. throws ConfigError
 template <int D>
-Stepper<D> make_stepper(const FvConfig& config, const support::Scene& scene);
+Stepper<D> make_stepper(const FvConfig& config, const support::Scene& scene,
+                        std::vector<std::string>* notes = nullptr);
 
 }  // namespace littoral::fv

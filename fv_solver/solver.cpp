@@ -54,7 +54,7 @@ Solver<D>::Solver(const FvConfig& config, const support::Scene& scene, const std
       log_("fv_solver", 0, folder_ + "/log.txt"),
       solve_(timers_.declare("solve")),
       write_(timers_.declare("output")),
-      stepper_(make_stepper<D>(config, scene)) {
+      stepper_(make_stepper<D>(config, scene, &grid_notes_)) {
   if (restarted_) window_ = read_checkpoint<D>(restart, stepper_, scene);
   write_text(folder_ + "/config.yaml", config.resolved());
   write_text(folder_ + "/scene.yaml", scene.resolved());
@@ -75,6 +75,7 @@ void Solver<D>::run(Companion<D>& companion) {
   for (const auto& block : stepper_.blocks()) cells += block.extent.cells();
   log_.info(format("%s: %td cells in %zu blocks, %d threads, %s", scene_.title.c_str(), cells,
                    stepper_.blocks().size(), omp_get_max_threads(), companion.description().c_str()));
+  for (const std::string& note : grid_notes_) log_.info(note);
   if (!restarted_) output_->first(stepper_, companion.waited());
 
   std::string reason = "end time reached";

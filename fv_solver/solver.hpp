@@ -45,6 +45,7 @@ class Solver {
   support::Log log_;
   support::Timers timers_;
   support::Timers::Phase solve_, write_;
+  std::vector<std::string> grid_notes_;
   Stepper<D> stepper_;
   std::unique_ptr<Output<D>> output_;
   std::int64_t window_ = 0;

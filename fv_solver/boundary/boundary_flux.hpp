@@ -25,7 +25,7 @@ struct FaceFlux {
 template <int D>
 using BoundaryFluxes = std::array<std::array<FaceFlux<D>, 2>, D>;
 
-/// Fluxes of all windows but periodic, state and fringe, which use the ordinary flux over their ghosts.
+/// Fluxes of all windows but periodic, state, fringe and join, which use the ordinary flux over their ghosts.
 /// in   q with ghosts current, p the pressure relative to the reference
 template <int D>
 void compute_boundary_fluxes(const Block<D>& block, const Fluid<D>& fluid, const WaveSpeeds& speeds,

@@ -27,6 +27,8 @@ const char* name(Condition condition) {
       return "periodic";
     case Condition::fringe:
       return "fringe";
+    case Condition::join:
+      return "join";
   }
   return "?";
 }
@@ -172,6 +174,7 @@ void fill_window(const Block<D>& block, const Window<D>& w, State<D>& q) {
         }
         break;
       case Condition::fringe:
+      case Condition::join:
         break;
     }
     ++flat;
@@ -184,7 +187,7 @@ template <int D>
 void fill_ghosts(const Block<D>& block, State<D>& q) {
   for (int d = 0; d < D; ++d)
     for (const Window<D>& w : block.windows)
-      if (w.direction == d) fill_window(block, w, q);
+      if (w.direction == d && w.condition != Condition::join) fill_window(block, w, q);
 }
 
 template <int D>

@@ -10,9 +10,9 @@ template <int D>
 void evaluate_windows(Block<D>& block, const Equations<D>& equations, double t);
 
 /// Sets p and u in all ghost cells, edges and corners included, from the inner cells and the windows' given
-/// values: directions in turn, each over the ghosts of those before. Ghosts behind `fringe` windows are left
-/// alone. Pressures are treated relative to the hydrostatic reference.
-/// comm local
+/// values: directions in turn, each over the ghosts of those before. Ghosts behind `fringe` and `join`
+/// windows are left alone (boundary/exchange.hpp). Pressures are treated relative to the hydrostatic
+/// reference. comm local
 template <int D>
 void fill_ghosts(const Block<D>& block, State<D>& q);
 

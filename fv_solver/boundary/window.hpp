@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "boundary/join.hpp"
+
 namespace littoral::fv {
 
 /// What closes the equations on a part of a block's face.
@@ -18,6 +20,7 @@ namespace littoral::fv {
 ///   state      p and u given in both ghost layers, ordinary flux
 ///   periodic   the opposite face of the same block
 ///   fringe     nothing: only beside cells that are not solved (imposed or blanked)
+///   join       the cells of another block (or of another face of the same one) beyond the face
 enum class Condition : std::uint8_t {
   wall,
   slip,
@@ -27,7 +30,8 @@ enum class Condition : std::uint8_t {
   far_field,
   state,
   periodic,
-  fringe
+  fringe,
+  join
 };
 const char* name(Condition condition);
 
@@ -46,6 +50,8 @@ struct Window {
   std::array<Prescribed, D> velocity;  // [m/s] empty: 0
   Prescribed pressure;                 // [Pa] absolute; empty: the hydrostatic reference
   double wave_speed = 0.0;             // [m/s] far_field only; 0: |u| of the given state, at least c0/10
+  Join<D> join;                        // condition join only: the other side
+  JoinRequest<D> request;              // of a window whose block may meet another one; see find_joins
 
   /// Given values at the time last set by evaluate_windows, over the window grown into the ghosts of lower
   /// directions, per layer (0: at the face, or the first ghost layer for `state`; 1: second ghost layer).

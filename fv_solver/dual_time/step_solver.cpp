@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "boundary/ghosts.hpp"
 #include "grid/loops.hpp"
 
 namespace littoral::fv {
@@ -10,7 +9,7 @@ namespace littoral::fv {
 template <int D>
 void StepProblem<D>::evaluate(std::vector<State<D>>& q, std::vector<Residual<D>>& r) const {
   r.resize(blocks.size());
-  for (std::size_t b = 0; b < blocks.size(); ++b) fill_ghosts(blocks[b], q[b]);
+  exchange.states(blocks, q);
   for (std::size_t b = 0; b < blocks.size(); ++b)
     equations.residual(blocks[b], q[b], time, history[b], forcing[b], r[b]);
 }

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "boundary/exchange.hpp"
 #include "grid/block.hpp"
 #include "physics/equations.hpp"
 
@@ -11,6 +12,7 @@ namespace littoral::fv {
 template <int D>
 struct StepProblem {
   std::vector<Block<D>>& blocks;
+  const Exchange<D>& exchange;
   const Equations<D>& equations;
   BackwardDifference time;
   const std::vector<History<D>>& history;

@@ -32,6 +32,7 @@ template <int D>
 Stepper<D>::Stepper(std::vector<Block<D>> blocks, const Equations<D>& equations,
                     std::unique_ptr<StepSolver<D>> inner, const InnerTolerance& tolerance)
     : blocks_(std::move(blocks)),
+      exchange_(blocks_),
       equations_(equations),
       inner_(std::move(inner)),
       tolerance_(tolerance),
@@ -60,8 +61,8 @@ void Stepper<D>::initialise(const FlowFunction<D>& flow, double t) {
       for (std::size_t k = 0; k < D; ++k) q.u[k][c] = s.u[k];
     }
     evaluate_windows(blocks_[b], equations_, t);
-    fill_ghosts(blocks_[b], q);
   }
+  exchange_.states(blocks_, level_[0]);
   check("This is the initial state: look at the scene's initial formulas.");
 }
 
@@ -127,7 +128,7 @@ StepReport Stepper<D>::advance(double dt, const std::vector<Imposed<D>>& imposed
   time_ = t;
   ++steps_;
 
-  const StepProblem<D> problem{blocks_, equations_, s, history_, forcing_};
+  const StepProblem<D> problem{blocks_, exchange_, equations_, s, history_, forcing_};
   StepReport report;
   try {
     report = inner_->solve(problem, tolerance_, level_[0]);

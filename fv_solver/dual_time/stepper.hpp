@@ -65,6 +65,7 @@ class Stepper {
   long steps() const { return steps_; }
   std::vector<Block<D>>& blocks() { return blocks_; }
   const std::vector<Block<D>>& blocks() const { return blocks_; }
+  const Exchange<D>& exchange() const { return exchange_; }
   const Equations<D>& equations() const { return equations_; }
   /// Current state, ghosts current.
   std::vector<State<D>>& state() { return level_[0]; }
@@ -90,6 +91,7 @@ class Stepper {
   void check(const std::string& advice) const;
 
   std::vector<Block<D>> blocks_;
+  Exchange<D> exchange_;
   Equations<D> equations_;
   std::unique_ptr<StepSolver<D>> inner_;
   InnerTolerance tolerance_;

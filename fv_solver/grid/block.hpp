@@ -71,6 +71,7 @@ struct Block {
   Extent<D> extent;                    // of cells
   Extent<D> node_extent;               // of nodes: one more than cells in each direction
   std::array<bool, D> periodic{};      // the block closes on itself in this direction
+  bool cartesian_names = false;        // faces are called x_lower, ...; else i_lower, ...
   VectorField<D> node;                 // [m] node (i, j, k) is the lower corner of cell (i, j, k); ghosts set
   VectorField<D> centre;               // [m] mean of the corners, ghosts included
   Field volume;                        // [m^D] ghosts included (mirrored or periodic)

@@ -25,31 +25,96 @@ double geometric(double ratio, double i, double n) {
   return std::expm1(i * std::log(q)) / std::expm1(n * std::log(q));
 }
 
+/// What closes a face, and what it may be joined with.
 template <int D>
-Condition resolve(const FaceConfig& face, const support::Scene& scene, std::size_t d, std::size_t side,
-                  const std::string& where) {
-  if (face.condition != static_cast<int>(FaceConfig::Kind::by_scene))
-    return static_cast<Condition>(face.condition);
-  switch (scene.domain.sides[axis_in_space<D>(d)][side]) {
-    case support::Scene::Side::periodic:
-      return Condition::periodic;
-    case support::Scene::Side::symmetry:
-      return Condition::symmetry;
-    case support::Scene::Side::open:
-      break;
-  }
-  if (scene.coupling.kind != support::Scene::CouplingKind::none) return Condition::fringe;
-  throw ConfigError(where +
-                    ": the scene says this side is open, so the face needs a condition (wall, slip, inflow, "
-                    "outflow, far_field, state)");
+struct Closing {
+  Condition condition = Condition::wall;
+  JoinRequest<D> request;
+};
+
+template <int D>
+std::array<double, D> in_grid(const std::array<double, 3>& v) {
+  std::array<double, D> x;
+  for (std::size_t k = 0; k < D; ++k) x[k] = v[axis_in_space<D>(k)];
+  return x;
+}
+
+/// Direction and side of a face numbered 2 * axis + side as the user names it; -1: any.
+template <int D>
+void set_face(int face, JoinRequest<D>& request) {
+  if (face < 0) return;
+  for (std::size_t d = 0; d < D; ++d)
+    if (axis_in_space<D>(d) == static_cast<std::size_t>(face / 2)) request.direction = static_cast<int>(d);
+  request.side = face % 2;
 }
 
 template <int D>
-Window<D> window_of(const FaceConfig& face, Condition condition, std::size_t d, std::size_t side,
+Closing<D> resolve(const FaceConfig& face, const BlockConfig& block, const support::Scene& scene,
+                   std::size_t d, std::size_t side, const Neighbourhood& others) {
+  using Kind = typename JoinRequest<D>::Kind;
+  const std::size_t a = axis_in_space<D>(d);
+  Closing<D> closing;
+  if (face.condition != static_cast<int>(FaceConfig::Kind::by_scene)) {
+    closing.condition = static_cast<Condition>(face.condition);
+    if (closing.condition != Condition::join) return closing;
+    closing.request.kind = Kind::required;
+    closing.request.block = face.join.block;
+    set_face<D>(face.join.face, closing.request);
+    const std::array<double, D> offset = in_grid<D>(face.join.offset);
+    if (offset != std::array<double, D>{}) closing.request.offsets.push_back(offset);
+    return closing;
+  }
+  if (others.automatic) closing.request.kind = Kind::if_met;
+  switch (scene.domain.sides[a][side]) {
+    case support::Scene::Side::periodic: {
+      closing.condition = Condition::periodic;
+      const double length = scene.domain.upper[a] - scene.domain.lower[a];
+      const double own = block.upper[a] - block.lower[a];
+      constexpr double k_round_off = 1e-9;
+      if (others.alone || std::abs(own - length) <= k_round_off * length) {
+        closing.request.kind = Kind::none;
+        break;
+      }
+      closing.condition =
+          Condition::join;  // one of several along the direction: the next, or the domain's other side
+      closing.request.kind = Kind::required;
+      closing.request.otherwise =
+          "the scene is periodic along this direction, and the block is only a part of it";
+      std::array<double, D> offset{};
+      for (const double sign : {-1.0, 1.0}) {
+        offset[d] = sign * length;
+        closing.request.offsets.push_back(offset);
+      }
+      break;
+    }
+    case support::Scene::Side::symmetry:
+      closing.condition = Condition::symmetry;
+      break;
+    case support::Scene::Side::open:
+      closing.condition = Condition::fringe;
+      if (scene.coupling.kind != support::Scene::CouplingKind::none) break;
+      closing.condition = Condition::join;
+      closing.request.kind = Kind::required;
+      closing.request.otherwise =
+          "the scene says this side is open, so the face needs a condition (wall, slip, inflow, outflow, "
+          "far_field, state), or a block that joins it";
+      if (!others.automatic || others.alone)
+        throw ConfigError(
+            "block '" + block.name + "', faces." + face_name(a, side) +
+            ": the scene says this side is open, so the face needs a condition (wall, slip, inflow, "
+            "outflow, far_field, state)");
+      break;
+  }
+  return closing;
+}
+
+template <int D>
+Window<D> window_of(const FaceConfig& face, const Closing<D>& closing, std::size_t d, std::size_t side,
                     const std::string& fallback_name) {
   Window<D> w;
   w.name = face.name.empty() ? fallback_name : face.name;
-  w.condition = condition;
+  w.condition = closing.condition;
+  w.request = closing.request;
   w.direction = static_cast<int>(d);
   w.side = static_cast<int>(side);
   w.wave_speed = face.wave_speed;
@@ -68,8 +133,8 @@ Window<D> window_of(const FaceConfig& face, Condition condition, std::size_t d, 
 
 /// Windows of one face: the face cut along all edges of its patches, each piece with the last patch over it.
 template <int D>
-void add_face(Block<D>& block, const BlockConfig& config, const support::Scene& scene, std::size_t d,
-              std::size_t side) {
+void add_face(Block<D>& block, const BlockConfig& config, const support::Scene& scene,
+              const Neighbourhood& others, std::size_t d, std::size_t side) {
   const std::size_t a = axis_in_space<D>(d);
   const std::string face = face_name(a, side);
   const auto face_index = static_cast<int>(2 * a + side);
@@ -111,8 +176,7 @@ void add_face(Block<D>& block, const BlockConfig& config, const support::Scene& 
                    upper[k] <= patch->to[axis_in_space<D>(k)];
       if (inside) condition = &patch->condition;
     }
-    const std::string where = "block '" + config.name + "', faces." + face;
-    Window<D> w = window_of<D>(*condition, resolve<D>(*condition, scene, d, side, where), d, side,
+    Window<D> w = window_of<D>(*condition, resolve<D>(*condition, config, scene, d, side, others), d, side,
                                config.name + "." + face);
     w.lower = lower;
     w.upper = upper;
@@ -139,7 +203,7 @@ double stretched(const Stretching& stretching, int i, int n) {
 }
 
 template <int D>
-Block<D> build_block(const BlockConfig& config, const support::Scene& scene) {
+Block<D> build_block(const BlockConfig& config, const support::Scene& scene, const Neighbourhood& others) {
   std::array<int, D> cells;
   std::array<bool, D> periodic;
   for (std::size_t d = 0; d < D; ++d) {
@@ -149,12 +213,12 @@ Block<D> build_block(const BlockConfig& config, const support::Scene& scene) {
       throw ConfigError("block '" + config.name + "': upper is not above lower along " + k_axis_names[a]);
     std::array<bool, 2> both;
     for (std::size_t side = 0; side < 2; ++side)
-      both[side] =
-          resolve<D>(config.faces[2 * a + side], scene, d, side,
-                     "block '" + config.name + "', faces." + face_name(a, side)) == Condition::periodic;
+      both[side] = resolve<D>(config.faces[2 * a + side], config, scene, d, side, others).condition ==
+                   Condition::periodic;
     if (both[0] != both[1])
       throw ConfigError("block '" + config.name + "': periodic along " + k_axis_names[a] +
-                        " on one side only");
+                        " on one side only; faces of different blocks, or other faces, are joined with an "
+                        "offset (condition: join)");
     periodic[d] = both[0];
     if (periodic[d] && scene.gravity[a] != 0.0)
       throw ConfigError(
@@ -179,12 +243,13 @@ Block<D> build_block(const BlockConfig& config, const support::Scene& scene) {
     }
     return x;
   });
+  block.cartesian_names = true;
   for (std::size_t d = 0; d < D; ++d)
-    for (std::size_t side = 0; side < 2; ++side) add_face(block, config, scene, d, side);
+    for (std::size_t side = 0; side < 2; ++side) add_face(block, config, scene, others, d, side);
   return block;
 }
 
-template Block<2> build_block<2>(const BlockConfig&, const support::Scene&);
-template Block<3> build_block<3>(const BlockConfig&, const support::Scene&);
+template Block<2> build_block<2>(const BlockConfig&, const support::Scene&, const Neighbourhood&);
+template Block<3> build_block<3>(const BlockConfig&, const support::Scene&, const Neighbourhood&);
 
 }  // namespace littoral::fv

@@ -18,36 +18,53 @@ struct Multigrid<D, Real>::BlockLevel {
 template <int D, class Real>
 struct Multigrid<D, Real>::Level {
   std::vector<BlockLevel> blocks;
+  std::vector<JoinSide<D>> joins;
+  JoinLinks<D> links;  // first ghost layer
+
+  void set_joins(std::vector<JoinSide<D>> sides) {
+    joins = std::move(sides);
+    std::vector<Extent<D>> extents;
+    for (const auto& block : blocks) extents.push_back(block.grid.extent);
+    links = JoinLinks<D>(joins, extents, 1);
+  }
 };
 
 template <int D, class Real>
-Multigrid<D, Real>::Multigrid(std::vector<LevelGrid<D>> blocks, const MultigridOptions& options)
+Multigrid<D, Real>::Multigrid(std::vector<LevelGrid<D>> blocks, const MultigridOptions& options,
+                              std::vector<JoinSide<D>> joins)
     : options_(options) {
+  if (!joins.empty()) options_.coarsest_sweeps *= 2;
   levels_.push_back(std::make_unique<Level>());
   for (auto& grid : blocks) {
     levels_[0]->blocks.emplace_back();
     levels_[0]->blocks.back().grid = std::move(grid);
   }
+  levels_[0]->set_joins(std::move(joins));
   for (;;) {
     Level& level = *levels_.back();
-    bool coarsens = static_cast<int>(levels_.size()) < options.max_levels;
+    std::vector<const LevelGrid<D>*> grids;
     for (auto& block : level.blocks) {
+      grids.push_back(&block.grid);
       block.directions = stiff_directions(block.grid);
       for (int d : block.directions) block.operators.emplace_back(block.grid, d);
       for (Correction<D, Real>* field : {&block.b, &block.e, &block.r})
         field->assign_zero(block.grid.extent.size);
-      block.ratio = coarsening_ratio(block.grid);
-      bool any = false;
-      for (int r : block.ratio) any = any || r > 1;
-      coarsens = coarsens && any;  // overlapping blocks must all stop at the same level
     }
-    if (!coarsens) break;
+    const std::vector<std::array<int, D>> ratios = joint_ratios<D>(grids, level.joins);
+    bool coarsens = false;
+    for (const auto& ratio : ratios)
+      for (int r : ratio) coarsens = coarsens || r > 1;
+    if (!coarsens || static_cast<int>(levels_.size()) >= options_.max_levels) break;
     auto next = std::make_unique<Level>();
-    for (auto& block : level.blocks) {
+    for (std::size_t i = 0; i < level.blocks.size(); ++i) {
+      BlockLevel& block = level.blocks[i];
+      block.ratio = ratios[i];
       next->blocks.emplace_back();
       next->blocks.back().grid = coarsen<D>(block.grid, block.ratio);
       block.transfer = std::make_unique<Transfer<D>>(block.grid, next->blocks.back().grid, block.ratio);
     }
+    next->set_joins(coarse_joins<D>(level.joins, ratios));
+    next->links.copy([&](std::size_t i) -> Field& { return next->blocks[i].grid.volume; }, true);
     levels_.push_back(std::move(next));
   }
   closed_ = true;
@@ -102,6 +119,11 @@ void Multigrid<D, Real>::build(const std::vector<const State<D>*>& states,
       BlockLevel& next = levels_[l + 1]->blocks[i];
       average_state<D>(block.grid, block.ratio, state, next.grid, next.state);
     }
+    if (coarsest) continue;
+    Level& next = *levels_[l + 1];
+    next.links.copy([&](std::size_t i) -> Field& { return next.blocks[i].state.p; }, true);
+    for (std::size_t k = 0; k < D; ++k)
+      next.links.copy([&](std::size_t i) -> Field& { return next.blocks[i].state.u[k]; }, true);
   }
 }
 
@@ -130,6 +152,16 @@ template <int D, class Real>
 void Multigrid<D, Real>::exchange(Level& level) {
   for (auto& block : level.blocks)
     for (auto& field : block.e.q) fill_periodic(block.grid, field);
+  for (std::size_t k = 0; k <= D; ++k)
+    level.links.copy([&](std::size_t i) -> std::vector<Real>& { return level.blocks[i].e.q[k]; }, true);
+}
+
+template <int D, class Real>
+template <class FieldOf>
+void Multigrid<D, Real>::fill_for_transfer(Level& level, FieldOf&& field_of) {
+  for (auto& block : level.blocks) fill_correction_ghosts(block.grid, field_of(block));
+  for (std::size_t k = 0; k <= D; ++k)
+    level.links.copy([&](std::size_t i) -> std::vector<Real>& { return field_of(level.blocks[i]).q[k]; });
 }
 
 template <int D, class Real>
@@ -185,18 +217,14 @@ void Multigrid<D, Real>::descend(std::size_t l, bool fresh) {
   }
   for (int s = 0; s < options_.pre_sweeps; ++s) sweep(level, true);
   Level& next = *levels_[l + 1];
-  for (std::size_t i = 0; i < level.blocks.size(); ++i) {
-    BlockLevel& block = level.blocks[i];
-    block.operators[0].residual(block.b, block.e, block.r);
-    fill_correction_ghosts(block.grid, block.r);
-    block.transfer->restrict_residual(block.r, next.blocks[i].b);
-  }
+  for (auto& block : level.blocks) block.operators[0].residual(block.b, block.e, block.r);
+  fill_for_transfer(level, [](BlockLevel& block) -> Correction<D, Real>& { return block.r; });
+  for (std::size_t i = 0; i < level.blocks.size(); ++i)
+    level.blocks[i].transfer->restrict_residual(level.blocks[i].r, next.blocks[i].b);
   descend(l + 1, true);
-  for (std::size_t i = 0; i < level.blocks.size(); ++i) {
-    BlockLevel& block = level.blocks[i];
-    fill_correction_ghosts(next.blocks[i].grid, next.blocks[i].e);
-    block.transfer->add_prolonged(next.blocks[i].e, block.e);
-  }
+  fill_for_transfer(next, [](BlockLevel& block) -> Correction<D, Real>& { return block.e; });
+  for (std::size_t i = 0; i < level.blocks.size(); ++i)
+    level.blocks[i].transfer->add_prolonged(next.blocks[i].e, level.blocks[i].e);
   exchange(level);
   for (int s = 0; s < options_.post_sweeps; ++s) sweep(level, false);
 }

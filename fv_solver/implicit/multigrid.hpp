@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "implicit/level_joins.hpp"
 #include "implicit/line_operator.hpp"
 #include "implicit/transfer.hpp"
 
@@ -12,22 +13,25 @@ struct MultigridOptions {
   int max_levels = 6;
   int pre_sweeps = 1;
   int post_sweeps = 1;      // essential: without post-smoothing the cycle does not pay
-  int coarsest_sweeps = 8;  // there and back each
+  int coarsest_sweeps = 8;  // there and back each; of joined blocks twice as many
 };
 
 /// Linear multigrid for the first-order Jacobian of one or several blocks: V-cycles with zebra line sweeps,
-/// blocks re-discretised on every level from averaged states. Several blocks stop at the same level.
+/// blocks re-discretised on every level from averaged states. All blocks have the same levels; a block too
+/// small to be coarsened further stays as it is while others go on. The correction crosses joins on every
+/// level, before each sweep of a colour and before the residual, so that nothing is lost to a single block.
 /// Real: float halves the memory traffic and keeps the number of cycles; the state stays double.
 template <int D, class Real>
 class Multigrid {
  public:
-  Multigrid(std::vector<LevelGrid<D>> blocks, const MultigridOptions& options);
+  Multigrid(std::vector<LevelGrid<D>> blocks, const MultigridOptions& options,
+            std::vector<JoinSide<D>> joins = {});
   ~Multigrid();
   Multigrid(Multigrid&&) noexcept;
   Multigrid& operator=(Multigrid&&) noexcept;
 
-  /// Renews all blocks: after a change of dt, of the BDF order, or of the state they are frozen at.
-  /// forcing: K/delta of each block, null where none is forced; may be empty
+  /// Renews all blocks: after a change of dt, of the BDF order, or of the state they are frozen at; states
+  /// with ghosts current. forcing: K/delta of each block, null where none is forced; may be empty
   void build(const std::vector<const State<D>*>& states, const CorrectionPhysics<D>& physics,
              const std::vector<const Field*>& forcing = {});
 
@@ -49,7 +53,12 @@ class Multigrid {
   struct BlockLevel;
   struct Level;
   void sweep(Level& level, bool forward);
+  /// The correction's ghosts of one level, from periodic images and other blocks: all that crosses between
+  /// blocks inside the cycle.
   void exchange(Level& level);
+  /// Ghosts for the interpolation between levels, edges and corners included. field: of a block
+  template <class FieldOf>
+  void fill_for_transfer(Level& level, FieldOf&& field_of);
   void descend(std::size_t l, bool fresh);
   void set_forcing(const std::vector<const Field*>& forcing);
   std::vector<std::unique_ptr<Level>> levels_;

@@ -24,6 +24,7 @@ EdgeCondition edge_condition(Condition condition) {
     case Condition::outflow:
       return EdgeCondition::outflow;
     case Condition::periodic:
+    case Condition::join:
       return EdgeCondition::link;
     case Condition::far_field:
       return EdgeCondition::far_field;
@@ -69,7 +70,7 @@ struct MultigridSolver<D>::Levels {
   double total_volume = 0.0;
 
   Levels(const std::vector<Block<D>>& blocks, const MultigridOptions& options)
-      : grids(all_grids(blocks)), multigrid(grids, options) {
+      : grids(all_grids(blocks)), multigrid(grids, options, join_sides(blocks)) {
     for (const LevelGrid<D>& grid : grids) {
       cells.emplace_back();
       for_each_cell<D>(grid.extent, [&](const auto&, std::ptrdiff_t c) {

@@ -1,0 +1,84 @@
+#include "boundary/exchange.hpp"
+
+#include "boundary/ghosts.hpp"
+
+namespace littoral::fv {
+
+template <int D>
+Exchange<D>::Exchange(const std::vector<Block<D>>& blocks) {
+  std::vector<Extent<D>> extents;
+  for (const auto& block : blocks) extents.push_back(block.extent);
+  links_ = JoinLinks<D>(join_sides(blocks), extents, k_ghost);
+}
+
+template <int D>
+void Exchange<D>::states(const std::vector<Block<D>>& blocks, std::vector<State<D>>& q) const {
+  for (std::size_t b = 0; b < blocks.size(); ++b) fill_ghosts(blocks[b], q[b]);
+  links_.for_each([&](const CellCopies& c) {
+    const double* reference_here = blocks[c.to_block].reference_pressure.data();
+    const double* reference_there = blocks[c.from_block].reference_pressure.data();
+    const State<D>& from = q[c.from_block];
+    State<D>& to = q[c.to_block];
+    for (std::size_t i = 0; i < c.to.size(); ++i) {
+      const auto g = static_cast<std::size_t>(c.to[i]), o = static_cast<std::size_t>(c.from[i]);
+      to.p[g] = from.p[o] + (reference_here[g] - reference_there[o]);
+      for (std::size_t k = 0; k < D; ++k) to.u[k][g] = from.u[k][o];
+    }
+  });
+}
+
+namespace {
+
+/// Geometry of the ghosts beyond `beyond` + 1 faces behind one join.
+template <int D>
+void join_side_metrics(std::vector<Block<D>>& blocks, const JoinSide<D>& side, std::size_t beyond_wanted) {
+  Block<D>& here = blocks[side.block];
+  const Block<D>& there = blocks[side.there.block];
+  const auto& n_there = there.extent.n;
+  for_each_ghost<D>(
+      side, here.extent.n, k_ghost, [&](const std::array<int, D>& index, int layer, std::size_t beyond) {
+        if (beyond != beyond_wanted) return;
+        const std::array<int, D> other = side.image(index, layer, n_there);
+        for (std::size_t d = 0; d < D; ++d)
+          if (other[d] < -k_ghost || other[d] >= n_there[d] + k_ghost) return;
+        const std::ptrdiff_t g = here.extent.at(index), o = there.extent.at(other);
+        here.volume[static_cast<std::size_t>(g)] = there.volume[static_cast<std::size_t>(o)];
+        for (std::size_t k = 0; k < D; ++k)
+          here.centre[k][static_cast<std::size_t>(g)] =
+              there.centre[k][static_cast<std::size_t>(o)] + side.there.offset[k];
+        for (std::size_t d = 0; d < D; ++d) {
+          const auto a = static_cast<std::size_t>(side.there.axis[d]);
+          const bool same = side.same_way(d);
+          // lower and upper face of the ghost, from the cell's faces in the direction's own sense; the face
+          // shared with an inner cell keeps that cell closed to round-off and is left as it is
+          for (int up = 0; up < 2; ++up) {
+            if (index[d] + up > here.extent.n[d] + k_ghost - 1) continue;
+            const bool own =
+                static_cast<int>(d) == side.direction && layer == 0 && up == (side.side == 0 ? 1 : 0);
+            if (own) continue;
+            const int from = same ? up : 1 - up;
+            if (other[a] + from > n_there[a] + k_ghost - 1) continue;
+            const auto to = static_cast<std::size_t>(g + up * here.extent.stride[d]);
+            const auto source = static_cast<std::size_t>(o + from * there.extent.stride[a]);
+            for (std::size_t k = 0; k < D; ++k)
+              here.area[d][k][to] = (same ? 1.0 : -1.0) * there.area[a][k][source];
+          }
+        }
+      });
+}
+
+}  // namespace
+
+template <int D>
+void join_metrics(std::vector<Block<D>>& blocks) {
+  const std::vector<JoinSide<D>> sides = join_sides(blocks);
+  for (std::size_t beyond = 0; beyond < D; ++beyond)
+    for (const JoinSide<D>& side : sides) join_side_metrics(blocks, side, beyond);
+}
+
+template class Exchange<2>;
+template class Exchange<3>;
+template void join_metrics(std::vector<Block<2>>&);
+template void join_metrics(std::vector<Block<3>>&);
+
+}  // namespace littoral::fv

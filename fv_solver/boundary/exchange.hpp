@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include "boundary/links.hpp"
+#include "grid/block.hpp"
+
+namespace littoral::fv {
+
+/// What passes between blocks, and the ghosts of each: the one place where values from elsewhere enter a
+/// block. Every evaluation of the residual goes through states(); the correction has the same on each of its
+/// levels (Multigrid::exchange). Whoever imposes values from other blocks (overset fringes) adds them to
+/// both.
+template <int D>
+class Exchange {
+ public:
+  Exchange() = default;
+  /// Joins of the blocks' windows. The blocks may change their statuses and windows' values, not their joins.
+  explicit Exchange(const std::vector<Block<D>>& blocks);
+
+  /// Sets p and u in all ghosts of all blocks: behind windows (fill_ghosts), then behind joins, edges and
+  /// corners included. Across a periodic pair pressures are those relative to the hydrostatic reference. pre
+  /// windows evaluated    comm local
+  void states(const std::vector<Block<D>>& blocks, std::vector<State<D>>& q) const;
+
+  const JoinLinks<D>& links() const { return links_; }
+
+ private:
+  JoinLinks<D> links_;
+};
+
+/// Centres, volumes and face areas of the ghosts behind joins are those of the cells there, so that
+/// reconstruction and friction keep their order across. pre: set_metrics on all blocks
+template <int D>
+void join_metrics(std::vector<Block<D>>& blocks);
+
+}  // namespace littoral::fv

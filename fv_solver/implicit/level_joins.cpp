@@ -1,0 +1,71 @@
+#include "implicit/level_joins.hpp"
+
+namespace littoral::fv {
+namespace {
+
+/// Whether cells first..end-1 of n are whole coarse cells, an odd last one alone.
+bool halves(int first, int end, int n, bool odd_end_allowed) {
+  return first % 2 == 0 && (end % 2 == 0 || (odd_end_allowed && end == n));
+}
+
+template <int D>
+bool may_halve(const JoinSide<D>& j, std::size_t d, const std::vector<const LevelGrid<D>*>& grids) {
+  const auto a = static_cast<std::size_t>(j.there.axis[d]);
+  // an odd cell stays alone at the upper end: on both sides in the same place only if both run the same way
+  const bool same_end = !j.there.reversed[d] && j.there.upper[a] == grids[j.there.block]->extent.n[a] &&
+                        j.upper[d] == grids[j.block]->extent.n[d];
+  return halves(j.lower[d], j.upper[d], grids[j.block]->extent.n[d], same_end) &&
+         halves(j.there.lower[a], j.there.upper[a], grids[j.there.block]->extent.n[a], same_end);
+}
+
+}  // namespace
+
+template <int D>
+std::vector<std::array<int, D>> joint_ratios(const std::vector<const LevelGrid<D>*>& grids,
+                                             const std::vector<JoinSide<D>>& joins) {
+  std::vector<std::array<int, D>> ratios;
+  for (const LevelGrid<D>* grid : grids) ratios.push_back(coarsening_ratio(*grid));
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const JoinSide<D>& j : joins)
+      for (std::size_t d = 0; d < D; ++d) {
+        if (static_cast<int>(d) == j.direction) continue;
+        int& here = ratios[j.block][d];
+        int& there = ratios[j.there.block][static_cast<std::size_t>(j.there.axis[d])];
+        if (here == 1 && there == 1) continue;
+        if (here == there && may_halve(j, d, grids)) continue;
+        here = there = 1;
+        changed = true;
+      }
+  }
+  return ratios;
+}
+
+template <int D>
+std::vector<JoinSide<D>> coarse_joins(const std::vector<JoinSide<D>>& joins,
+                                      const std::vector<std::array<int, D>>& ratios) {
+  std::vector<JoinSide<D>> coarse = joins;
+  const auto shrink = [](std::array<int, D>& lower, std::array<int, D>& upper,
+                         const std::array<int, D>& ratio) {
+    for (std::size_t d = 0; d < D; ++d) {
+      lower[d] /= ratio[d];
+      upper[d] = (upper[d] + ratio[d] - 1) / ratio[d];
+    }
+  };
+  for (JoinSide<D>& j : coarse) {
+    shrink(j.lower, j.upper, ratios[j.block]);
+    shrink(j.there.lower, j.there.upper, ratios[j.there.block]);
+  }
+  return coarse;
+}
+
+template std::vector<std::array<int, 2>> joint_ratios<2>(const std::vector<const LevelGrid<2>*>&,
+                                                         const std::vector<JoinSide<2>>&);
+template std::vector<std::array<int, 3>> joint_ratios<3>(const std::vector<const LevelGrid<3>*>&,
+                                                         const std::vector<JoinSide<3>>&);
+template std::vector<JoinSide<2>> coarse_joins<2>(const std::vector<JoinSide<2>>&,
+                                                  const std::vector<std::array<int, 2>>&);
+template std::vector<JoinSide<3>> coarse_joins<3>(const std::vector<JoinSide<3>>&,
+                                                  const std::vector<std::array<int, 3>>&);
+
+}  // namespace littoral::fv

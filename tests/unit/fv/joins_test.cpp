@@ -1,0 +1,342 @@
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "dual_time/stepper.hpp"
+#include "implicit/multigrid_solver.hpp"
+#include "littoral/error.hpp"
+#include "split_grids.hpp"
+
+// Blocks joined in any orientation are the one block they were cut from.
+namespace littoral::fv {
+namespace {
+
+template <int D>
+std::array<std::vector<int>, D> cuts_of() {
+  if constexpr (D == 2)
+    return {std::vector<int>{4, 6, 3}, std::vector<int>{5, 4}};
+  else
+    return {std::vector<int>{4, 3}, std::vector<int>{3, 4}, std::vector<int>{2, 5}};
+}
+
+template <int D>
+Equations<D> water(double inverse_c2, double viscosity, Limiter limiter = Limiter::none) {
+  Equations<D> e;
+  e.fluid.density = 1.0;
+  e.fluid.inverse_c2 = inverse_c2;
+  e.fluid.viscosity = viscosity;
+  e.limiter = limiter;
+  return e;
+}
+
+/// Residuals of all blocks for states given in the whole's cells.
+template <int D>
+std::vector<Residual<D>> residuals(std::vector<Block<D>>& blocks, const Equations<D>& equations,
+                                   std::vector<State<D>>& q) {
+  for (auto& block : blocks) {
+    set_reference_pressure(block, equations.fluid);
+    evaluate_windows(block, equations, 0.0);
+  }
+  Exchange<D>(blocks).states(blocks, q);
+  std::vector<Residual<D>> r(blocks.size());
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    History<D> none;
+    none.resize(blocks[b].extent.size);
+    equations.residual(blocks[b], q[b], BackwardDifference::first_order(0.1), none, Forcing<D>{}, r[b]);
+  }
+  return r;
+}
+
+template <int D>
+State<D> random_state(const Block<D>& block, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> value(-1.0, 1.0);
+  State<D> q;
+  q.resize(block.extent.size);
+  for_each_index<D>({}, block.extent.n, [&](const std::array<int, D>& index) {
+    const auto c = static_cast<std::size_t>(block.extent.at(index));
+    q.p[c] = value(random);
+    for (std::size_t k = 0; k < D; ++k) q.u[k][c] = 0.5 + value(random);
+  });
+  return q;
+}
+
+template <int D>
+std::vector<State<D>> deal(const SplitGrid<D>& s, const State<D>& whole) {
+  std::vector<State<D>> q(s.parts.size());
+  for (std::size_t b = 0; b < q.size(); ++b) q[b].resize(s.parts[b].extent.size);
+  s.for_each_cell_of_parts([&](std::size_t b, std::size_t part, std::size_t from) {
+    q[b].p[part] = whole.p[from];
+    for (std::size_t k = 0; k < D; ++k) q[b].u[k][part] = whole.u[k][from];
+  });
+  return q;
+}
+
+template <int D>
+Window<D> closed_by(int d, int side, unsigned shift) {
+  Window<D> w;
+  w.name = std::to_string(d) + std::to_string(side);
+  const Condition kinds[] = {Condition::wall, Condition::outflow, Condition::inflow,
+                             Condition::slip, Condition::state,   Condition::far_field};
+  w.condition = kinds[(static_cast<unsigned>(2 * d + side) + shift) % 6];
+  for (std::size_t k = 0; k < D; ++k)
+    w.velocity[k] = [k](const std::array<double, 3>& x, double) {
+      return 0.3 + 0.1 * std::sin(2.0 * M_PI * x[k]);
+    };
+  return w;
+}
+
+/// Random states, all conditions, friction and gravity: each cell's residual is the one block's. Not
+/// compared: cells beside two windows, whose common ghosts are filled in the order of the block's own
+/// directions.
+template <int D>
+double difference_from_whole(const std::array<bool, D>& periodic, unsigned seed, Limiter limiter) {
+  auto s = split_grid<D>(
+      cuts_of<D>(), periodic, periodic[0] ? wavy<D> : skewed<D>,
+      [seed](int d, int side) { return closed_by<D>(d, side, seed); }, seed);
+  Equations<D> equations = water<D>(1e-2, 0.05, limiter);
+  if (!periodic[D - 1]) equations.fluid.gravity[D - 1] = -1.0;
+  std::vector<Block<D>> one{s.whole};
+  std::vector<State<D>> q_one{random_state(s.whole, seed + 7)};
+  auto q = deal(s, q_one[0]);
+  const auto r_one = residuals(one, equations, q_one);
+  const auto r = residuals(s.parts, equations, q);
+  double worst = 0.0;
+  s.for_each_cell_of_parts([&](std::size_t b, std::size_t part, std::size_t whole) {
+    const auto index = s.whole.extent.index(static_cast<std::ptrdiff_t>(whole));
+    int beside = 0;
+    for (std::size_t d = 0; d < D; ++d)
+      if (!periodic[d] && (index[d] == 0 || index[d] == s.whole.extent.n[d] - 1)) ++beside;
+    if (beside > 1) return;
+    worst = std::max(worst, std::abs(r[b].mass[part] - r_one[0].mass[whole]));
+    for (std::size_t k = 0; k < D; ++k)
+      worst = std::max(worst, std::abs(r[b].momentum[k][part] - r_one[0].momentum[k][whole]));
+  });
+  return worst;
+}
+
+TEST(JoinsTest, ResidualIsThatOfTheOneBlockInAnyOrientation) {
+  for (unsigned seed = 0; seed < 8; ++seed)
+    for (const Limiter limiter : {Limiter::none, Limiter::van_albada}) {
+      EXPECT_LT(difference_from_whole<2>({false, false}, seed, limiter), 1e-13) << seed;
+      EXPECT_LT(difference_from_whole<2>({true, true}, seed, limiter), 1e-13) << seed;
+      EXPECT_LT(difference_from_whole<2>({true, false}, seed, limiter), 1e-13) << seed;
+    }
+  for (unsigned seed = 0; seed < 8; ++seed) {
+    EXPECT_LT(difference_from_whole<3>({false, false, false}, seed, Limiter::none), 1e-13) << seed;
+    EXPECT_LT(difference_from_whole<3>({true, true, true}, seed, Limiter::van_albada), 1e-13) << seed;
+  }
+}
+
+template <int D>
+double uniform_stream(unsigned seed) {
+  const auto close = [](int, int) {
+    Window<D> w;
+    w.condition = Condition::state;
+    for (std::size_t k = 0; k < D; ++k)
+      w.velocity[k] = [k](const std::array<double, 3>&, double) {
+        return 1.0 - 0.6 * static_cast<double>(k);
+      };
+    w.pressure = [](const std::array<double, 3>&, double) { return 3.5; };
+    return w;
+  };
+  auto s = split_grid<D>(cuts_of<D>(), {}, skewed<D>, close, seed);
+  const Equations<D> equations = water<D>(1e-2, 0.01);
+  std::vector<State<D>> q(s.parts.size());
+  for (std::size_t b = 0; b < q.size(); ++b) {
+    q[b].resize(s.parts[b].extent.size);
+    q[b].p.assign(q[b].p.size(), 3.5);
+    for (std::size_t k = 0; k < D; ++k) q[b].u[k].assign(q[b].p.size(), 1.0 - 0.6 * static_cast<double>(k));
+  }
+  for (auto& block : s.parts) {
+    set_reference_pressure(block, equations.fluid);
+    evaluate_windows(block, equations, 0.0);
+  }
+  Exchange<D>(s.parts).states(s.parts, q);
+  double worst = 0.0;
+  for (std::size_t b = 0; b < q.size(); ++b) {
+    History<D> none;
+    none.resize(s.parts[b].extent.size);
+    Residual<D> r;
+    equations.residual(s.parts[b], q[b], BackwardDifference::steady(), none, Forcing<D>{}, r);
+    worst = std::max(worst, largest(s.parts[b], r, 1.0, 1.0));
+  }
+  return worst;
+}
+
+TEST(JoinsTest, UniformStreamIsASolutionAcrossJoins) {
+  for (unsigned seed = 0; seed < 6; ++seed) {
+    EXPECT_LT(uniform_stream<2>(seed), 1e-12);
+    EXPECT_LT(uniform_stream<3>(seed), 1e-12);
+  }
+}
+
+/// Where everything is joined with something, what leaves a cell enters another.
+template <int D>
+double sum_over_closed_torus(unsigned seed) {
+  std::array<bool, D> periodic;
+  periodic.fill(true);
+  auto s = split_grid<D>(
+      cuts_of<D>(), periodic, wavy<D>, [](int d, int side) { return closed_by<D>(d, side, 0); }, seed);
+  const Equations<D> equations = water<D>(0.0, 0.05);
+  auto q = deal(s, random_state(s.whole, seed));
+  for (auto& block : s.parts) set_reference_pressure(block, equations.fluid);
+  Exchange<D>(s.parts).states(s.parts, q);
+  std::array<double, D + 1> sum{};
+  for (std::size_t b = 0; b < q.size(); ++b) {
+    History<D> none;
+    none.resize(s.parts[b].extent.size);
+    Residual<D> r;
+    equations.residual(s.parts[b], q[b], BackwardDifference::steady(), none, Forcing<D>{}, r);
+    for_each_index<D>({}, s.parts[b].extent.n, [&](const std::array<int, D>& index) {
+      const auto c = static_cast<std::size_t>(s.parts[b].extent.at(index));
+      sum[D] += r.mass[c];
+      for (std::size_t k = 0; k < D; ++k) sum[k] += r.momentum[k][c];
+    });
+  }
+  double worst = 0.0;
+  for (double x : sum) worst = std::max(worst, std::abs(x));
+  return worst;
+}
+
+TEST(JoinsTest, AFaceOfTwoBlocksHasOneFlux) {
+  for (unsigned seed = 1; seed < 6; ++seed) {
+    EXPECT_LT(sum_over_closed_torus<2>(seed), 1e-13);
+    EXPECT_LT(sum_over_closed_torus<3>(seed), 1e-13);
+  }
+}
+
+/// Steps of the stepper: what the inner solver reaches in blocks is what it reaches in one, at the same cost.
+template <int D>
+void compare_steps(const std::array<std::vector<int>, D>& cuts, int extra_cycles) {
+  std::array<bool, D> periodic;
+  periodic.fill(true);
+  periodic[D - 1] = false;
+  const auto close = [](int, int) {
+    Window<D> w;
+    w.condition = Condition::wall;
+    return w;
+  };
+  const auto s = split_grid<D>(cuts, periodic, wavy<D>, close, 5);
+  const Equations<D> equations = water<D>(0.0, 0.01);
+  InnerTolerance tolerance;
+  tolerance.drop = 1e-8;
+  const auto flow = [](const std::array<double, D>& x, double) {
+    PointState<D> q;
+    q.u[0] = 1.0 + 0.3 * std::sin(2.0 * M_PI * x[D - 1]) * std::cos(2.0 * M_PI * (x[0] - 0.25 * x[D - 1]));
+    q.u[D - 1] = 0.2 * std::cos(2.0 * M_PI * (x[0] - 0.25 * x[D - 1]));
+    return q;
+  };
+  Stepper<D> one({s.whole}, equations, std::make_unique<MultigridSolver<D>>(), tolerance);
+  Stepper<D> many(s.parts, equations, std::make_unique<MultigridSolver<D>>(), tolerance);
+  one.initialise(flow, 0.0);
+  many.initialise(flow, 0.0);
+  int cycles_one = 0, cycles_many = 0;
+  constexpr int steps = 3;
+  for (int i = 0; i < steps; ++i) {
+    cycles_one += one.advance(0.02).cycles;
+    const StepReport report = many.advance(0.02);
+    EXPECT_TRUE(report.converged);
+    cycles_many += report.cycles;
+  }
+  EXPECT_LE(cycles_many, cycles_one + steps * extra_cycles) << cycles_one << " cycles as one block";
+  double worst = 0.0;
+  s.for_each_cell_of_parts([&](std::size_t b, std::size_t part, std::size_t whole) {
+    for (std::size_t k = 0; k < D; ++k)
+      worst = std::max(worst, std::abs(many.state()[b].u[k][part] - one.state()[0].u[k][whole]));
+  });
+  EXPECT_LT(worst, 1e-7) << D;
+  std::printf("[ cycles ] %d-D: %d as one block, %d joined\n", D, cycles_one, cycles_many);
+}
+
+TEST(JoinsTest, StepsOfTurnedBlocksAreThoseOfOneBlock) {
+  compare_steps<2>({std::vector<int>{16, 16}, std::vector<int>{8, 16}}, 2);
+  compare_steps<3>({std::vector<int>{8, 8}, std::vector<int>{8}, std::vector<int>{4, 8}}, 2);
+}
+
+/// A box that may be joined on every face.
+Block<2> open_box(const std::string& name, std::array<double, 2> lower, std::array<double, 2> upper,
+                  std::array<int, 2> cells) {
+  auto block = make_block<2>(name, cells, {}, [=](const std::array<int, 2>& i) {
+    std::array<double, 2> x;
+    for (std::size_t d = 0; d < 2; ++d) x[d] = lower[d] + (upper[d] - lower[d]) * i[d] / cells[d];
+    return x;
+  });
+  close_with<2>(block, Condition::wall);
+  for (auto& w : block.windows) w.request.kind = JoinRequest<2>::Kind::if_met;
+  return block;
+}
+
+TEST(JoinsTest, APartOfAFaceIsJoinedAndTheRestKeepsItsCondition) {
+  std::vector<Block<2>> blocks = {open_box("low", {0, 0}, {4, 1}, {8, 2}),
+                                  open_box("tower", {1, 1}, {2, 3}, {2, 4})};
+  const auto lines = find_joins(blocks);
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_EQ(lines[0], "low.j_upper[2..4] joins tower.j_lower");
+  check_windows(blocks[0]);
+  check_windows(blocks[1]);
+  int walls = 0, joins = 0;
+  for (const auto& w : blocks[0].windows) {
+    if (w.direction != 1 || w.side != 1) continue;
+    (w.condition == Condition::wall ? walls : joins) += w.upper[0] - w.lower[0];
+  }
+  EXPECT_EQ(walls, 6);
+  EXPECT_EQ(joins, 2);
+}
+
+TEST(JoinsTest, ARingClosesOnItself) {
+  auto ring = make_block<2>("ring", {12, 3}, {}, [](const std::array<int, 2>& i) {
+    const double a = -2.0 * M_PI * i[0] / 12, r = 1.0 + 0.5 * i[1];
+    return std::array<double, 2>{r * std::cos(a), r * std::sin(a)};
+  });
+  close_with<2>(ring, Condition::wall);
+  for (auto& w : ring.windows) w.request.kind = JoinRequest<2>::Kind::if_met;
+  std::vector<Block<2>> blocks{ring};
+  EXPECT_EQ(find_joins(blocks).size(), 1u);
+  EXPECT_TRUE(blocks[0].periodic[0]);
+  EXPECT_EQ(blocks[0].windows[0].condition, Condition::periodic);
+  const auto at = [&](int i, int j) { return static_cast<std::size_t>(blocks[0].extent.at({i, j})); };
+  for (std::size_t k = 0; k < 2; ++k)
+    EXPECT_NEAR(blocks[0].centre[k][at(-2, 1)], blocks[0].centre[k][at(10, 1)], 1e-15);
+}
+
+/// The two halves of one face lie on each other: the cut of a C-grid.
+TEST(JoinsTest, AFaceIsJoinedWithItself) {
+  auto c = make_block<2>("c", {12, 3}, {}, [](const std::array<int, 2>& i) {
+    // the wake from behind, around a diamond, and back along the wake
+    const double x[] = {0, -0.5, -1, -0.5, 0}, z[] = {0, -0.2, 0, 0.2, 0};
+    const double away_x[] = {0, -0.3, -1, -0.3, 0}, away_z[] = {-1, -1, 0, 1, 1};
+    const auto k = static_cast<std::size_t>(std::clamp(i[0] - 4, 0, 4));
+    const double wake = std::max({0, 4 - i[0], i[0] - 8}), h = 0.25 * i[1];
+    return std::array<double, 2>{x[k] + wake + h * away_x[k], z[k] + h * away_z[k]};
+  });
+  close_with<2>(c, Condition::wall);
+  for (auto& w : c.windows) w.request.kind = JoinRequest<2>::Kind::if_met;
+  std::vector<Block<2>> blocks{c};
+  const auto lines = find_joins(blocks);
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_EQ(lines[0], "c.j_lower[0..4] joins c.j_lower[8..12], direction i along -i");
+  const auto at = [&](int i, int j) { return static_cast<std::size_t>(blocks[0].extent.at({i, j})); };
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_EQ(blocks[0].centre[k][at(1, -1)], blocks[0].centre[k][at(10, 0)]);
+    EXPECT_EQ(blocks[0].centre[k][at(1, -2)], blocks[0].centre[k][at(10, 1)]);
+    EXPECT_EQ(blocks[0].centre[k][at(12, -1)], blocks[0].centre[k][at(-1, 0)]);
+  }
+}
+
+TEST(JoinsTest, AFaceThatMeetsNobodyIsNamed) {
+  std::vector<Block<2>> blocks = {open_box("left", {0, 0}, {1, 1}, {4, 4}),
+                                  open_box("right", {1, 0}, {2, 1}, {4, 5})};
+  blocks[0].windows[1].condition = Condition::join;
+  blocks[0].windows[1].request.kind = JoinRequest<2>::Kind::required;
+  try {
+    find_joins(blocks);
+    FAIL() << "faces that do not match were joined";
+  } catch (const ConfigError& e) {
+    const std::string text = e.what();
+    EXPECT_NE(text.find("block 'left', face i_upper: 4 faces from cell (0)"), std::string::npos) << text;
+  }
+}
+
+}  // namespace
+}  // namespace littoral::fv
