@@ -165,14 +165,25 @@ void FvConfig::bind(Binder& b) {
   });
   b.list<GaugeConfig>("gauges", "Values written to gauges.csv.", gauges, [](Binder& item, GaugeConfig& g) {
     item.key("name", g.name).required().doc("Column prefix.");
-    item.choice("kind", g.kind, {{"point", GaugeConfig::Kind::point}, {"force", GaugeConfig::Kind::force}})
-        .doc("point: p, u, v, w at a place; force: force and moment on a wall.");
+    item.choice("kind", g.kind,
+                {{"point", GaugeConfig::Kind::point},
+                 {"force", GaugeConfig::Kind::force},
+                 {"y_plus", GaugeConfig::Kind::y_plus}})
+        .doc(
+            "point: p, u, v, w at a place; force: force and moment on a wall, in all, without the "
+            "hydrostatic "
+            "part (dynamic), of pressure and of friction; y_plus: largest and mean distance of a wall's "
+            "first "
+            "centres in wall units.");
     item.key("at", g.at).unit("m").doc("Place; point only.");
-    item.key("wall", g.wall).doc("Name of the wall; force only.");
+    item.key("wall", g.wall).doc("Name of the wall; force and y_plus.");
     item.key("moment_about", g.moment_about).unit("m").doc("Centre of the moments; force only.");
   });
   b.section("output", "What is written besides gauges.", [&] {
     b.key("fields", output.fields).doc("XDMF fields at the scene's field_interval.");
+    b.key("vorticity", output.vorticity).doc("Vorticity among the fields.");
+    b.key("q_criterion", output.q_criterion)
+        .doc("Q = |E|^2 - |Omega|^2 among the fields: negative inside vortices, as in the paper.");
     b.key("scalars_every", output.scalars_every)
         .min(1)
         .doc("Steps between rows of scalars.csv and gauges.csv.");
@@ -181,8 +192,8 @@ void FvConfig::bind(Binder& b) {
   b.check(!blocks.empty(), "blocks", "a grid needs at least one block.");
   b.check(!(time.dt && time.cfl), "time.cfl", "given together with time.dt; give one of them.");
   for (const auto& g : gauges)
-    b.check(g.kind != GaugeConfig::Kind::force || !g.wall.empty(), "gauges",
-            "a force gauge needs a wall: its name.");
+    b.check(g.kind == GaugeConfig::Kind::point || !g.wall.empty(), "gauges",
+            "a force or y_plus gauge needs a wall: its name.");
 }
 
 FvConfig FvConfig::from_file(const std::string& path, const std::vector<std::string>& settings,

@@ -60,11 +60,11 @@ struct BlockConfig {
 };
 
 struct GaugeConfig {
-  enum class Kind : std::uint8_t { point, force };
+  enum class Kind : std::uint8_t { point, force, y_plus };
   std::string name;
   Kind kind = Kind::point;
   std::array<double, 3> at = {0, 0, 0};            // [m] point
-  std::string wall;                                // force
+  std::string wall;                                // force, y_plus
   std::array<double, 3> moment_about = {0, 0, 0};  // [m] force
 };
 
@@ -103,6 +103,7 @@ struct FvConfig {
   std::vector<GaugeConfig> gauges;
   struct Output {
     bool fields = true;
+    bool vorticity = false, q_criterion = false;
     int scalars_every = 1;
   } output;
 

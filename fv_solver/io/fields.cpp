@@ -3,11 +3,32 @@
 #include <cmath>
 
 #include "grid/loops.hpp"
+#include "physics/velocity_gradient.hpp"
 
 namespace littoral::fv {
 
+namespace {
+
 template <int D>
-support::FieldSeries::Block field_block(const Block<D>& block, const State<D>& q) {
+void add_derived(const Block<D>& block, const State<D>& q, const DerivedFields& derived,
+                 support::FieldSeries::Block& out) {
+  if (!derived.vorticity && !derived.q_criterion) return;
+  support::OutputField curl{"vorticity", 3, {}}, q_field{"q_criterion", 1, {}};
+  for_each_index<D>({}, block.extent.n, [&](const std::array<int, D>& index) {
+    const VelocityGradient<D> gradient = velocity_gradient<D>(block, q, block.extent.at(index));
+    if (derived.vorticity)
+      for (const double component : vorticity<D>(gradient)) curl.values.push_back(component);
+    if (derived.q_criterion) q_field.values.push_back(q_criterion<D>(gradient));
+  });
+  if (derived.vorticity) out.cell_fields.push_back(std::move(curl));
+  if (derived.q_criterion) out.cell_fields.push_back(std::move(q_field));
+}
+
+}  // namespace
+
+template <int D>
+support::FieldSeries::Block field_block(const Block<D>& block, const State<D>& q,
+                                        const DerivedFields& derived) {
   support::FieldSeries::Block out;
   out.name = block.name;
   support::OutputField velocity{"velocity", 3, {}}, pressure{"pressure", 1, {}},
@@ -24,6 +45,7 @@ support::FieldSeries::Block field_block(const Block<D>& block, const State<D>& q
     velocity.values.push_back(q.u[D - 1][c]);
   });
   out.cell_fields = {std::move(velocity), std::move(pressure), std::move(excess), std::move(status)};
+  add_derived<D>(block, q, derived, out);
 
   const double half = 0.5 * std::sqrt(volume / static_cast<double>(block.extent.cells()));
   if constexpr (D == 2) {
@@ -44,7 +66,7 @@ support::FieldSeries::Block field_block(const Block<D>& block, const State<D>& q
   return out;
 }
 
-template support::FieldSeries::Block field_block<2>(const Block<2>&, const State<2>&);
-template support::FieldSeries::Block field_block<3>(const Block<3>&, const State<3>&);
+template support::FieldSeries::Block field_block<2>(const Block<2>&, const State<2>&, const DerivedFields&);
+template support::FieldSeries::Block field_block<3>(const Block<3>&, const State<3>&, const DerivedFields&);
 
 }  // namespace littoral::fv

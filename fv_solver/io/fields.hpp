@@ -7,9 +7,15 @@
 
 namespace littoral::fv {
 
+/// Fields that cost a gradient: computed only where asked for.
+struct DerivedFields {
+  bool vorticity = false, q_criterion = false;
+};
+
 /// One block for ParaView: velocity, pressure, pressure beyond the hydrostatic reference, status of the
-/// cells. A planar block gets the thickness of its mean cell.
+/// cells, and the derived fields asked for. A planar block gets the thickness of its mean cell.
 template <int D>
-support::FieldSeries::Block field_block(const Block<D>& block, const State<D>& q);
+support::FieldSeries::Block field_block(const Block<D>& block, const State<D>& q,
+                                        const DerivedFields& derived = {});
 
 }  // namespace littoral::fv

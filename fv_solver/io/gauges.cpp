@@ -5,7 +5,7 @@
 
 #include "grid/donor_patch.hpp"
 #include "littoral/error.hpp"
-#include "physics/measures.hpp"
+#include "physics/wall_loads.hpp"
 
 namespace littoral::fv {
 namespace {
@@ -41,7 +41,7 @@ Gauges<D>::Gauges(const std::vector<GaugeConfig>& gauges, const Stepper<D>& step
   std::unique_ptr<coupler::DonorSearch> search;
   for (std::size_t g = 0; g < gauges_.size(); ++g) {
     const GaugeConfig& gauge = gauges_[g];
-    if (gauge.kind == GaugeConfig::Kind::force) {
+    if (gauge.kind != GaugeConfig::Kind::point) {
       if (has_wall(blocks, gauge.wall)) continue;
       std::string known;
       for (const auto& block : blocks)
@@ -76,12 +76,15 @@ std::vector<std::string> Gauges<D>::columns() const {
       names.push_back(gauge.name + ".p");
       for (std::size_t a = 0; a < 3; ++a)
         if (active<D>(a)) names.push_back(gauge.name + "." + k_velocities[a]);
+    } else if (gauge.kind == GaugeConfig::Kind::y_plus) {
+      for (const char* part : {".y_plus_max", ".y_plus_mean"}) names.push_back(gauge.name + part);
     } else {
-      for (const char* part : {".f", ".dynamic_f"})
+      for (const char* part : {".", ".dynamic_", ".pressure_", ".viscous_"}) {
         for (std::size_t a = 0; a < 3; ++a)
-          if (active<D>(a)) names.push_back(gauge.name + part + k_axes[a]);
-      for (std::size_t a = 0; a < 3; ++a)
-        if (D == 3 || a == 1) names.push_back(gauge.name + ".dynamic_m" + k_axes[a]);
+          if (active<D>(a)) names.push_back(gauge.name + part + "f" + k_axes[a]);
+        for (std::size_t a = 0; a < 3; ++a)
+          if (D == 3 || a == 1) names.push_back(gauge.name + part + "m" + k_axes[a]);
+      }
     }
   }
   return names;
@@ -102,14 +105,19 @@ std::vector<double> Gauges<D>::values(const Stepper<D>& stepper) const {
       }
       values.push_back(p);
       values.insert(values.end(), u.begin(), u.end());
+    } else if (gauge.kind == GaugeConfig::Kind::y_plus) {
+      const WallUnits units =
+          wall_units<D>(stepper.blocks(), stepper.equations(), stepper.state(), gauge.wall);
+      values.insert(values.end(), {units.largest, units.mean});
     } else {
-      const WallForce force = wall_force<D>(stepper.blocks(), stepper.equations(), stepper.state(),
+      const WallLoads loads = wall_loads<D>(stepper.blocks(), stepper.equations(), stepper.state(),
                                             gauge.wall, gauge.moment_about);
-      for (const coupler::Vec3& f : {force.total(), force.dynamic})
+      for (const Load& load : {loads.total(), loads.dynamic(), loads.pressure, loads.viscous}) {
         for (std::size_t a = 0; a < 3; ++a)
-          if (active<D>(a)) values.push_back(f[a]);
-      for (std::size_t a = 0; a < 3; ++a)
-        if (D == 3 || a == 1) values.push_back(force.moment[a]);
+          if (active<D>(a)) values.push_back(load.force[a]);
+        for (std::size_t a = 0; a < 3; ++a)
+          if (D == 3 || a == 1) values.push_back(load.moment[a]);
+      }
     }
   }
   return values;

@@ -9,6 +9,7 @@
 #include "io/fields.hpp"
 #include "littoral/error.hpp"
 #include "littoral/support/due.hpp"
+#include "physics/wall_loads.hpp"
 
 namespace littoral::fv {
 namespace {
@@ -95,10 +96,10 @@ void Output<D>::row(const Stepper<D>& stepper, const StepReport& report, double 
                                 report.drop(),  integrals_.kinetic_energy, integrals_.potential_energy,
                                 integrals_.mass};
   for (const auto& wall : walls_) {
-    const WallForce force = wall_force<D>(stepper.blocks(), stepper.equations(), stepper.state(), wall, {});
-    for (const coupler::Vec3& f : {force.total(), force.dynamic})
+    const WallLoads loads = wall_loads<D>(stepper.blocks(), stepper.equations(), stepper.state(), wall, {});
+    for (const Load& load : {loads.total(), loads.dynamic()})
       for (std::size_t a = 0; a < 3; ++a)
-        if (D == 3 || a != 1) values.push_back(f[a]);
+        if (D == 3 || a != 1) values.push_back(load.force[a]);
   }
   for (const auto& phase : timers_.table()) values.push_back(phase.second);
   values.push_back(waited);
@@ -112,9 +113,10 @@ void Output<D>::row(const Stepper<D>& stepper, const StepReport& report, double 
 template <int D>
 void Output<D>::fields(const Stepper<D>& stepper) {
   if (!fields_ || fields_written_at_ == stepper.time()) return;
+  const DerivedFields derived{options_.vorticity, options_.q_criterion};
   std::vector<support::FieldSeries::Block> blocks;
   for (std::size_t b = 0; b < stepper.blocks().size(); ++b)
-    blocks.push_back(field_block<D>(stepper.blocks()[b], stepper.state()[b]));
+    blocks.push_back(field_block<D>(stepper.blocks()[b], stepper.state()[b], derived));
   fields_->write_blocks(stepper.time(), blocks);
   fields_written_at_ = stepper.time();
 }

@@ -25,21 +25,6 @@ Field outside_share(const Block<D>& block, const std::vector<coupler::Box>& regi
 template <int D>
 Integrals integrate(const Block<D>& block, const Fluid<D>& fluid, const State<D>& q, const Field& share);
 
-/// Force of the water on the walls of one name (x, y, z whatever the dimension; 2-D: per metre).
-struct WallForce {
-  coupler::Vec3 dynamic{};      // [N] pressure beyond the hydrostatic reference, and friction
-  coupler::Vec3 hydrostatic{};  // [N] of the reference pressure (above p0)
-  coupler::Vec3 moment{};       // [N m] of `dynamic`
-  coupler::Vec3 total() const {
-    return {dynamic[0] + hydrostatic[0], dynamic[1] + hydrostatic[1], dynamic[2] + hydrostatic[2]};
-  }
-};
-/// Sums over all walls (wall, slip, symmetry) with this name. pre: ghosts of q current
-template <int D>
-WallForce wall_force(const std::vector<Block<D>>& blocks, const Equations<D>& equations,
-                     const std::vector<State<D>>& q, const std::string& wall,
-                     const coupler::Vec3& moment_about);
-
 /// Largest sum over the directions of |u . A| (at least `least` S) over the volume: 1/CFL of a unit step
 /// [1/s].
 template <int D>

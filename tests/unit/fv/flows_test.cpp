@@ -6,7 +6,7 @@
 #include "dual_time/stepper.hpp"
 #include "grids.hpp"
 #include "implicit/multigrid_solver.hpp"
-#include "physics/measures.hpp"
+#include "physics/wall_loads.hpp"
 
 namespace littoral::fv {
 namespace {
@@ -52,8 +52,16 @@ TEST(ChannelTest, CouetteIsLinearOnAnyGrid) {
     for (int step = 0; step < 6; ++step) stepper.advance(1e3);
     EXPECT_LT(worst_profile_error(stepper, [](double z) { return z; }), 1e-6);
     // the water holds the lid back with mu du/dz, 4 cells of .25
-    const WallForce f = wall_force<2>(stepper.blocks(), stepper.equations(), stepper.state(), "lid", {});
-    EXPECT_NEAR(f.dynamic[0], -1000.0 * 0.1 * 1.0, 1e-3);
+    const WallLoads f = wall_loads<2>(stepper.blocks(), stepper.equations(), stepper.state(), "lid", {});
+    EXPECT_NEAR(f.viscous.force[0], -1000.0 * 0.1 * 1.0, 1e-3);
+    EXPECT_NEAR(f.viscous.moment[1], 1.0 * f.viscous.force[0], 1e-6);  // the lid lies at z = 1
+    EXPECT_NEAR(f.pressure.force[0], 0.0, 1e-6);
+    // y+ = d sqrt(nu du/dz)/nu
+    const Block<2>& block = stepper.blocks()[0];
+    const double d = 1.0 - block.centre[1][static_cast<std::size_t>(block.extent.at({0, 15}))];
+    const WallUnits units = wall_units<2>(stepper.blocks(), stepper.equations(), stepper.state(), "lid");
+    EXPECT_NEAR(units.largest, d / std::sqrt(0.1), 1e-6);
+    EXPECT_NEAR(units.mean, units.largest, 1e-9);
   }
 }
 

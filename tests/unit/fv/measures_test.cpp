@@ -6,6 +6,8 @@
 #include "grids.hpp"
 #include "io/gauges.hpp"
 #include "littoral/error.hpp"
+#include "physics/velocity_gradient.hpp"
+#include "physics/wall_loads.hpp"
 
 namespace littoral::fv {
 namespace {
@@ -26,12 +28,41 @@ TEST(WallForceTest, WaterAtRestWeighsOnItsWallsAndNothingElse) {
   Stepper<3> stepper = tank<3>(equations, [&](const std::array<double, 3>& x, double) {
     return PointState<3>{equations.fluid.hydrostatic(x), {}};
   });
-  const WallForce f = wall_force<3>(stepper.blocks(), equations, stepper.state(), "face", {});
+  const WallLoads f = wall_loads<3>(stepper.blocks(), equations, stepper.state(), "face", {});
   // all faces together carry the weight of the unit volume; face centres integrate the linear pressure over
   // warped faces to second order
-  EXPECT_NEAR(f.hydrostatic[2], -1000.0 * 9.81, 0.02 * 9810.0);
-  EXPECT_NEAR(f.hydrostatic[0], 0.0, 0.02 * 9810.0);
-  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(f.dynamic[k], 0.0, 1e-9);
+  EXPECT_NEAR(f.hydrostatic.force[2], -1000.0 * 9.81, 0.02 * 9810.0);
+  EXPECT_NEAR(f.hydrostatic.force[0], 0.0, 0.02 * 9810.0);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_NEAR(f.dynamic().force[k], 0.0, 1e-9);
+    EXPECT_NEAR(f.dynamic().moment[k], 0.0, 1e-9);
+  }
+  // about another point: the moment changes by the arm times the force
+  const coupler::Vec3 about = {0.3, -0.2, 1.1};
+  const WallLoads g = wall_loads<3>(stepper.blocks(), equations, stepper.state(), "face", about);
+  const coupler::Vec3& w = f.hydrostatic.force;
+  const coupler::Vec3 arm = {about[1] * w[2] - about[2] * w[1], about[2] * w[0] - about[0] * w[2],
+                             about[0] * w[1] - about[1] * w[0]};
+  for (std::size_t k = 0; k < 3; ++k)
+    EXPECT_NEAR(g.hydrostatic.moment[k], f.hydrostatic.moment[k] - arm[k], 1e-8);
+}
+
+TEST(VelocityGradientTest, LinearFieldsAreExactAndVorticesHaveNegativeQ) {
+  const auto flow = [](const std::array<double, 3>& x, double) {  // rotation 2 about y, strain along x and z
+    return PointState<3>{0.0, {0.5 * x[0] + 2.0 * x[2], 0.1 * x[0], -2.0 * x[0] - 0.5 * x[2]}};
+  };
+  const Stepper<3> stepper = tank<3>(Equations<3>{}, flow);
+  const Block<3>& block = stepper.blocks()[0];
+  const VelocityGradient<3> g = velocity_gradient<3>(block, stepper.state()[0], block.extent.at({3, 4, 2}));
+  const double expected[3][3] = {{0.5, 0.0, 2.0}, {0.1, 0.0, 0.0}, {-2.0, 0.0, -0.5}};
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t l = 0; l < 3; ++l) EXPECT_NEAR(g[k][l], expected[k][l], 1e-12);
+  const coupler::Vec3 curl = vorticity<3>(g);
+  EXPECT_NEAR(curl[0], 0.0, 1e-12);
+  EXPECT_NEAR(curl[1], 4.0, 1e-12);
+  EXPECT_NEAR(curl[2], 0.1, 1e-12);
+  EXPECT_NEAR(q_criterion<3>(g), 2.0 * 0.25 - 2.0 * 4.0, 1e-12);  // rotation wins: below 0
+  EXPECT_NEAR(vorticity<2>({{{0.0, 2.0}, {-2.0, 0.0}}})[1], 4.0, 1e-15);
 }
 
 TEST(IntegralsTest, AStreamHasItsMassAndEnergy) {
