@@ -5,7 +5,7 @@ from lib import grid
 # Re: (cells, end in L/U, {quantity: (value, place or None)}); sources in README.md
 FLOWS = {
     100: ((32, 64, 128), 40, {"u_min": (-0.2139, 0.458), "w_max": (0.1794, 0.237), "w_min": (-0.2536, 0.8105)}),
-    400: ((64, 128), 60, {"u_min": (-0.3245, None), "w_max": (0.2991, None), "w_min": (-0.4478, None)}),
+    400: ((64, 128), 60, {"u_min": (-0.32873, None), "w_max": (0.30383, None), "w_min": (-0.45406, None)}),
     1000: ((64, 128), 150, {"u_min": (-0.38857, None), "w_max": (0.37694, None), "w_min": (-0.52708, None)}),
 }
 FINEST = 128
