@@ -71,9 +71,9 @@ double PresentParticles<D>::room(const Point<D>& x) const {
 }
 
 template <int D>
-InjectionPlace<D> injection_place(const FaceElement<D>& element, double excess_depth, double spacing,
-                                  bool far, const PresentParticles<D>& present, const Exterior& fv,
-                                  double time, std::int64_t& hint) {
+InjectionPlace<D> injection_place(const FaceElement<D>& element, double depth, double spacing, bool far,
+                                  const PresentParticles<D>& present, const Exterior& fv, double time,
+                                  std::int64_t& hint) {
   InjectionPlace<D> best;
   const auto consider = [&](const Point<D>& x) {
     if (!present.inside(x)) return;
@@ -81,7 +81,7 @@ InjectionPlace<D> injection_place(const FaceElement<D>& element, double excess_d
     if (room > best.room * (1.0 + 1e-12) && in_water<D>(x, fv, time, hint)) best = {x, room};
   };
   Point<D> centre = element.centre;
-  centre[element.axis] += element.inward * (0.5 * spacing + std::clamp(excess_depth, 0.0, 0.5 * spacing));
+  centre[element.axis] += element.inward * std::clamp(depth, 0.0, spacing);
   consider(centre);
   if (best.room >= k_free * spacing) return best;
 

@@ -40,14 +40,14 @@ struct InjectionPlace {
   double room = -1.0;  // [m]
 };
 
-/// Where the particle of an element appears: in front of the element's centre, half a spacing inside, plus
-/// the depth that the mass beyond m0 has already travelled; so a steady inflow makes rows of even spacing
+/// Where the particle of an element appears: in front of the element's centre, `depth` inside (at most a
+/// spacing): where the water is by now that it stands for; so a steady inflow makes rows of even spacing
 /// although particles appear only at the ends of steps. If a particle is there already, the emptiest of a few
 /// places around. More and further ones if `far`. Places above FV's surface
 /// are none.
 template <int D>
-InjectionPlace<D> injection_place(const FaceElement<D>& element, double excess_depth, double spacing,
-                                  bool far, const PresentParticles<D>& present, const Exterior& fv,
-                                  double time, std::int64_t& hint);
+InjectionPlace<D> injection_place(const FaceElement<D>& element, double depth, double spacing, bool far,
+                                  const PresentParticles<D>& present, const Exterior& fv, double time,
+                                  std::int64_t& hint);
 
 }  // namespace littoral::sph

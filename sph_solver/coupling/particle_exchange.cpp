@@ -13,7 +13,7 @@ namespace littoral::sph {
 namespace {
 
 // Distance to the nearest particle that a new one must have [spacings]. Where water flows in, a place soon
-// empties: the mass waits, up to that of a second particle. Where it flows out there is only a particle due
+// empties: the mass waits, up to that of one more particle. Where it flows out there is only a particle due
 // because others left early; it comes where there is a void, else the mass waits for one.
 constexpr double k_room_inflow = 0.65;
 constexpr double k_room_outflow = 0.9;
@@ -108,10 +108,15 @@ void ParticleExchange<D>::find_nearest(const Particles<D>& particles) {
 }
 
 template <int D>
+double ParticleExchange<D>::mass_due(std::size_t element) const {
+  return removal_ == Removal::crossing && elements_.inflow_speed(element) > 0.0 ? 0.5 * m0_ : m0_;
+}
+
+template <int D>
 bool ParticleExchange<D>::inject(Particles<D>& particles, const Exterior& fv, double time) {
   std::vector<std::size_t> due;
   for (std::size_t e = 0; e < elements_.size(); ++e)
-    if (elements_.mass(e) >= m0_) due.push_back(e);
+    if (elements_.mass(e) >= mass_due(e)) due.push_back(e);
   if (due.empty()) return false;
   const std::int64_t before = counts_.injected;
 
@@ -122,13 +127,13 @@ bool ParticleExchange<D>::inject(Particles<D>& particles, const Exterior& fv, do
   for (auto& around : present) around.sort();
   for (std::size_t e : due) {
     auto& around = present[elements_[e].box];
-    while (elements_.mass(e) >= m0_) {
-      // the mass beyond m0 entered after the particle was due: it has travelled so far since
-      const double excess_depth = (elements_.mass(e) - m0_) / (eos_.density(eos_.p0) * elements_[e].area);
+    while (elements_.mass(e) >= mass_due(e)) {
+      // the particle's centre is the water that passed the face when half of m0 had: so far it has come since
+      const double depth = (elements_.mass(e) - 0.5 * m0_) / (eos_.density(eos_.p0) * elements_[e].area);
       const bool inflow = elements_.inflow_speed(e) > 0.0;
-      const bool pressed = inflow && elements_.mass(e) >= 2.0 * m0_;
-      const auto place = injection_place<D>(elements_[e], excess_depth, spacing_, pressed, around, fv, time,
-                                            elements_.hint(e));
+      const bool pressed = inflow && elements_.mass(e) >= mass_due(e) + m0_;
+      const auto place =
+          injection_place<D>(elements_[e], depth, spacing_, pressed, around, fv, time, elements_.hint(e));
       if (place.room < (inflow ? k_room_inflow : k_room_outflow) * spacing_ && !pressed) break;
       if (place.room < 0.0) break;  // FV's water is not there yet
       NewParticle<D> particle;

@@ -15,10 +15,14 @@
 
 namespace littoral::sph {
 
-/// When a particle leaves the region.
-///   crossing  a particle beyond the outer face goes, its mass is credited to the element it crossed
-///   nearest   the paper: below -m0 on an element, the particle nearest to it goes; one that has strayed more
-///             than a spacing beyond the face goes as under `crossing`
+/// When a particle leaves the region, and when one comes.
+///   crossing  a particle beyond the outer face goes, its mass is credited to the element it crossed; where
+///             water flows in one comes when its centre crosses, that is with half its mass m0 on the
+///             element. What is inside then differs from the water there by half a row at most (waiting for
+///             all of m0 lags up to a row). Where water flows out a particle is due only because another
+///             left early, beside its element: it waits for all of m0
+///   nearest   the paper: below -m0 on an element, the particle nearest to it goes, one comes at m0; one that
+///             has strayed more than a spacing beyond the face goes as under `crossing`
 enum class Removal { crossing, nearest };
 
 /// Particles that appeared or vanished, by cause.
@@ -43,7 +47,7 @@ class ParticleExchange {
   void start(const Particles<D>& particles);
 
   /// After a step from `time` to `time + dt`, positions of the end: integrates the face elements over the
-  /// step (18), (19), removes, injects at m0. Ghosts are dropped if particles changed. returns  true if
+  /// step (18), (19), removes, injects. Ghosts are dropped if particles changed. returns  true if
   /// particles appeared or vanished: indices and neighbour lists are void then comm: local. throws
   /// CouplingError: no donors where a particle has to appear
   bool step(Particles<D>& particles, const Exterior& fv, double time, double dt);
@@ -65,6 +69,7 @@ class ParticleExchange {
   void doom(const Particles<D>& particles, std::size_t i, std::size_t element);
   void find_crossed(const Particles<D>& particles, double margin);
   void find_nearest(const Particles<D>& particles);
+  double mass_due(std::size_t element) const;  ///< [kg] with so much on it a particle comes
   bool inject(Particles<D>& particles, const Exterior& fv, double time);
 
   Layers<D> layers_;
