@@ -205,6 +205,10 @@ FvConfig FvConfig::from_file(const std::string& path, const std::vector<std::str
   Binder first(document);
   first.key("scene", config.scene).doc("The scene's file, relative to this one.");
   scene = support::Scene::from_file(document.resolve(config.scene), scene_settings);
+  if (scene.has_body_force())
+    throw ConfigError(document.resolve(config.scene) +
+                      ": body_force acts on particles only; give the grid its force per volume in fv.yaml, "
+                      "source.u, source.v, source.w, and leave body_force out.");
   Binder binder(document);
   binder.use_constants(scene.constants);
   config.bind(binder);

@@ -136,6 +136,12 @@ Numerics<D> numerics_of(const RunConfig& config) {
   numerics.eos = {scene.fluid.density, scene.fluid.sound_speed, scene.fluid.reference_pressure};
   numerics.viscosity = scene.fluid.viscosity;
   for (std::size_t d = 0; d < D; ++d) numerics.gravity[d] = scene.gravity[scene_axis<D>(d)];
+  if (scene.has_body_force()) {
+    const std::array<support::Formula, 3> force = {scene.body_force.x, scene.body_force.y,
+                                                   scene.body_force.z};
+    numerics.body_force.emplace();
+    for (std::size_t d = 0; d < D; ++d) (*numerics.body_force)[d] = force[scene_axis<D>(d)];
+  }
   numerics.free_surface = scene.has_free_surface();
   numerics.spacing = sph.spacing;
   numerics.kernel_radius = sph.kernel_radius.value_or(D == 2 ? 4.0 : 2.7) * sph.spacing;

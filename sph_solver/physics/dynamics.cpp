@@ -32,6 +32,7 @@ Dynamics<D>::Dynamics(const Numerics<D>& numerics, const DomainBox<D>& box)
   double g = 0.0;
   for (double component : numerics.gravity) g += std::fabs(component);
   if (g > 0.0) terms_.push_back(std::make_unique<Gravity<D>>(numerics.gravity));
+  if (numerics.body_force) terms_.push_back(std::make_unique<BodyForce<D>>(*numerics.body_force));
   if (numerics.viscosity > 0.0)
     terms_.push_back(std::make_unique<Viscosity<D>>(numerics.eos.rho0 * numerics.viscosity));
 }
@@ -78,7 +79,7 @@ void Dynamics<D>::prepare(Particles<D>& particles, double t, StepHooks<D>* hooks
 }
 
 template <int D>
-void Dynamics<D>::right_hand_side(Particles<D>& particles) {
+void Dynamics<D>::right_hand_side(Particles<D>& particles, double t) {
   {
     const PhaseSeconds::Scope scope(seconds_, Phase::lists);
     ghosts_.refresh(particles);
@@ -96,7 +97,7 @@ void Dynamics<D>::right_hand_side(Particles<D>& particles) {
     work_.pairs += static_cast<std::int64_t>(neighbors_.n_pairs());
   }
   const PhaseSeconds::Scope scope(seconds_, Phase::terms);
-  for (const auto& term : terms_) term->add(particles, neighbors_, rate_);
+  for (const auto& term : terms_) term->add(particles, neighbors_, t, rate_);
 }
 
 template <int D>
@@ -113,7 +114,7 @@ void Dynamics<D>::step(Particles<D>& particles, double t, double dt, StepHooks<D
   }
   remember_start(particles);
   for (std::size_t k = 0; k < k_classical.size(); ++k) {
-    right_hand_side(particles);  // (S3)-(S8)
+    right_hand_side(particles, k == 0 ? t : t + k_classical[k - 1].advance * dt);  // (S3)-(S8)
     const bool last = k + 1 == k_classical.size();
     {
       const PhaseSeconds::Scope scope(seconds_, Phase::update);

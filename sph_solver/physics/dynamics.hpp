@@ -53,8 +53,9 @@ class Dynamics {
   /// anew.
   void forget_lists() { neighbors_.forget(), surface_current_ = false; }
 
-  /// du/dt and dV/dt of the particles as they stand; copies refreshed. pre: prepare() since particles changed
-  void right_hand_side(Particles<D>& particles);
+  /// du/dt and dV/dt of the particles as they stand, at time t; copies refreshed. pre: prepare() since
+  /// particles changed
+  void right_hand_side(Particles<D>& particles, double t);
 
   /// What stable_time_step() remembers of the last right-hand side [m/s^2]; part of a checkpoint.
   double most_acceleration() const { return most_acceleration_; }

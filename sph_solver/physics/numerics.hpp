@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
+#include "littoral/support/formula.hpp"
 #include "physics/eos.hpp"
 #include "physics/riemann.hpp"
 
@@ -11,12 +13,13 @@ namespace littoral::sph {
 template <int D>
 struct Numerics {
   LinearEos eos;
-  double viscosity = 0.0;           // nu [m^2/s]; 0: no viscous term
-  std::array<double, D> gravity{};  // [m/s^2]; 0: no such term
-  bool free_surface = false;        // else no detection
-  double spacing = 0.0;             // dx [m]
-  double kernel_radius = 0.0;       // R [m]
-  double skin = 0.0;                // of the neighbour lists [m]
+  double viscosity = 0.0;                                     // nu [m^2/s]; 0: no viscous term
+  std::array<double, D> gravity{};                            // [m/s^2]; 0: no such term
+  std::optional<std::array<support::Formula, D>> body_force;  // [m/s^2]; absent: no such term
+  bool free_surface = false;                                  // else no detection
+  double spacing = 0.0;                                       // dx [m]
+  double kernel_radius = 0.0;                                 // R [m]
+  double skin = 0.0;                                          // of the neighbour lists [m]
   Reconstruction reconstruction = Reconstruction::unlimited;
   RiemannSolver riemann = RiemannSolver::linearised;
   bool shifting = true;

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <utility>
 
+#include "littoral/support/formula.hpp"
 #include "neighbors/neighbor_list.hpp"
 #include "particles/particles.hpp"
 #include "physics/rate.hpp"
@@ -12,8 +14,9 @@ namespace littoral::sph {
 template <int D>
 struct Term {
   virtual ~Term() = default;
-  /// Adds to rate.acceleration, owned part; copies current. comm: local
-  virtual void add(const Particles<D>& particles, const NeighborList<D>& neighbors, Rate<D>& rate) const = 0;
+  /// Adds to rate.acceleration, owned part, at time t [s]; copies current. comm: local
+  virtual void add(const Particles<D>& particles, const NeighborList<D>& neighbors, double t,
+                   Rate<D>& rate) const = 0;
 };
 
 /// du_i/dt += g
@@ -21,13 +24,26 @@ template <int D>
 class Gravity : public Term<D> {
  public:
   explicit Gravity(const std::array<double, D>& g) : g_(g) {}
-  void add(const Particles<D>& particles, const NeighborList<D>&, Rate<D>& rate) const override {
+  void add(const Particles<D>& particles, const NeighborList<D>&, double, Rate<D>& rate) const override {
     for (std::size_t d = 0; d < D; ++d)
       for (std::size_t i = 0; i < particles.n_owned; ++i) rate.acceleration[d][i] += g_[d];
   }
 
  private:
   std::array<double, D> g_;  // [m/s^2]
+};
+
+/// du_i/dt += f(x_i, t), an acceleration by formula
+template <int D>
+class BodyForce : public Term<D> {
+ public:
+  using Field = std::array<support::Formula, D>;  // [m/s^2] along each axis
+  explicit BodyForce(Field field) : field_(std::move(field)) {}
+  void add(const Particles<D>& particles, const NeighborList<D>& neighbors, double t,
+           Rate<D>& rate) const override;
+
+ private:
+  Field field_;
 };
 
 /// Monaghan-Gingold viscosity (S8):
@@ -38,12 +54,15 @@ template <int D>
 class Viscosity : public Term<D> {
  public:
   explicit Viscosity(double dynamic_viscosity) : mu_(dynamic_viscosity) {}
-  void add(const Particles<D>& particles, const NeighborList<D>& neighbors, Rate<D>& rate) const override;
+  void add(const Particles<D>& particles, const NeighborList<D>& neighbors, double t,
+           Rate<D>& rate) const override;
 
  private:
   double mu_;  // rho0 nu [Pa s]
 };
 
+extern template class BodyForce<2>;
+extern template class BodyForce<3>;
 extern template class Viscosity<2>;
 extern template class Viscosity<3>;
 

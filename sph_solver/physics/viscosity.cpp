@@ -66,7 +66,8 @@ std::array<double, 3> sum_pairs(const Particles<3>& particles, const Kernel<3>& 
 }  // namespace
 
 template <int D>
-void Viscosity<D>::add(const Particles<D>& particles, const NeighborList<D>& neighbors, Rate<D>& rate) const {
+void Viscosity<D>::add(const Particles<D>& particles, const NeighborList<D>& neighbors, double,
+                       Rate<D>& rate) const {
   const Kernel<D> kernel(neighbors.kernel_radius());
   const auto n = static_cast<std::ptrdiff_t>(particles.n_owned);
 #pragma omp parallel for schedule(static)

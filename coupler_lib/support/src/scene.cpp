@@ -57,6 +57,11 @@ void Scene::bind(Binder& b) {
     b.key("viscosity", fluid.viscosity).unit("m^2/s").min(0).doc("nu, kinematic; 0: no viscous term.");
   });
   b.key("gravity", gravity).unit("m/s^2").doc("Acceleration vector, as [0, 0, -9.81].");
+  b.section("body_force", "Acceleration of the water besides gravity. Particles only.", [&] {
+    b.key("x", body_force.x).unit("m/s^2").doc("Along x, a formula of x, y, z, t.");
+    b.key("y", body_force.y).unit("m/s^2").doc("Along y; 3-D only.");
+    b.key("z", body_force.z).unit("m/s^2").doc("Along z.");
+  });
   b.section("domain", "The box of the whole flow; both solvers close it the same way.", [&] {
     b.key("lower", domain.lower).unit("m").required().doc("Lower corner.");
     b.key("upper", domain.upper).unit("m").required().doc("Upper corner.");
@@ -151,6 +156,12 @@ std::string Scene::resolved() const {
   Scene copy = *this;  // bind() takes references to members; in this mode it only reads them
   copy.bind(binder);
   return binder.text();
+}
+
+bool Scene::has_body_force() const {
+  for (const Formula* component : {&body_force.x, &body_force.y, &body_force.z})
+    if (!component->is_constant() || (*component)(0, 0, 0, 0) != 0.0) return true;
+  return false;
 }
 
 bool Scene::open_face(const Region& region, std::size_t direction, std::size_t side) const {

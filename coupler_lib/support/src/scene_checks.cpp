@@ -27,6 +27,8 @@ void check_plane(const Scene& s, Binder& b) {
   b.check(s.gravity[1] == 0.0, "gravity", "has a component along y, but the plane of a 2-D scene is (x, z).");
   b.check(s.initial.v.is_constant() && s.initial.v(0, 0, 0, 0) == 0.0, "initial.v",
           "is a velocity along y, but the plane of a 2-D scene is (x, z): use u and w.");
+  b.check(s.body_force.y.is_constant() && s.body_force.y(0, 0, 0, 0) == 0.0, "body_force.y",
+          "is an acceleration along y, but the plane of a 2-D scene is (x, z): use x and z.");
   b.check(s.domain.sides[1] == std::array<Scene::Side, 2>{}, "domain.y",
           "a 2-D scene has no direction y: the plane is (x, z).");
 }

@@ -130,6 +130,21 @@ TEST(DynamicsTest, FreeFallIsExact) {
   EXPECT_NEAR(particles.u[1][first], -2.0, 1e-12);
 }
 
+/// x'' = -4 x along x and z'' = 6 t along z: the first to fourth order, the second exactly.
+TEST(DynamicsTest, BodyForceIsTakenAtPlaceAndTimeOfEachStage) {
+  auto setup = numerics<2>(4.0);
+  setup.body_force = {{support::Formula("-4*x"), support::Formula("6*t")}};
+  setup.free_surface = true;
+  auto particles = test::cloud<2>({1, 1}, 1.0);
+  particles.x = {{{1.0}, {0.0}}};
+  Dynamics<2> dynamics(setup, box<2>(100.0, Side::open));
+  constexpr int k_steps = 50;
+  constexpr double k_dt = 0.02;
+  for (int k = 0; k < k_steps; ++k) dynamics.step(particles, k_dt * k, k_dt, nullptr);
+  EXPECT_NEAR(particles.x[0][0], std::cos(2.0), 1e-7);  // (2 dt)^4 / 120 a unit of phase
+  EXPECT_NEAR(particles.x[1][0], 1.0, 1e-12);
+}
+
 TEST(DynamicsTest, StepLimitsAreThoseOfTheFormula) {
   auto setup = numerics<2>(4.0);
   EXPECT_DOUBLE_EQ((Dynamics<2>(setup, box<2>(16.0, Side::periodic)).stable_time_step()), 0.375 * 4.0 / 10.0);

@@ -19,7 +19,7 @@ double lattice_factor(double radius) {
   Rate<D> rate;
   rate.resize(particles.n_owned);
   const double nu = 0.3;
-  Viscosity<D>(nu).add(particles, neighbors, rate);
+  Viscosity<D>(nu).add(particles, neighbors, 0.0, rate);
   return rate.acceleration[0][particles.n_owned / 2] / nu;
 }
 
@@ -41,7 +41,7 @@ TEST(ViscosityTest, KeepsMomentumAndIgnoresRigidRotation) {
   Rate<2> rate;
   rate.resize(particles.n_owned);
   const Viscosity<2> viscosity(1.0);
-  viscosity.add(particles, neighbors, rate);
+  viscosity.add(particles, neighbors, 0.0, rate);
   double sum = 0.0, scale = 0.0;
   for (std::size_t i = 0; i < particles.n_owned; ++i) {
     sum += particles.m[i] * rate.acceleration[0][i];
@@ -54,7 +54,7 @@ TEST(ViscosityTest, KeepsMomentumAndIgnoresRigidRotation) {
     particles.u[1][i] = particles.x[0][i];
     rate.acceleration[0][i] = 0.0;
   }
-  viscosity.add(particles, neighbors, rate);
+  viscosity.add(particles, neighbors, 0.0, rate);
   for (std::size_t i = 0; i < particles.n_owned; ++i) EXPECT_NEAR(rate.acceleration[0][i], 0.0, 1e-12);
 }
 

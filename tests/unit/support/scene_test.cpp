@@ -52,6 +52,15 @@ TEST_F(SceneTest, ReadsTheWave) {
   EXPECT_EQ(read({"reference_velocity=0"}).velocity_scale(), 1.0);
 }
 
+TEST_F(SceneTest, BodyForceIsAFormulaAndHasNoYInThePlane) {
+  EXPECT_FALSE(read().has_body_force());
+  const Scene s = read({"body_force.x=-k*x"});
+  EXPECT_TRUE(s.has_body_force());
+  EXPECT_NEAR(s.body_force.x(2, 0, 0, 0), -2 * std::acos(-1.0), 1e-14);
+  EXPECT_NE(s.digest, read().digest);
+  EXPECT_NE(refusal({"body_force.y=1"}).find("body_force.y"), std::string::npos);
+}
+
 TEST_F(SceneTest, ResolvedTextReadsBackTheSameDigest) {
   for (const std::vector<std::string>& settings :
        {std::vector<std::string>{},

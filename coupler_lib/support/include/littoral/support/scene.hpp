@@ -75,6 +75,13 @@ struct Scene {
 
   double reference_velocity = 0.0;  // [m/s] U_ref of (14) and (22); 0: sound_speed / 10
 
+  /// Acceleration besides gravity, formulas of x, y, z, t.
+  struct BodyForce {
+    Formula x, y, z;  // [m/s^2]
+  } body_force;
+
+  bool has_body_force() const;
+
   bool has_free_surface() const { return initial.surface.has_value(); }
   bool has_region() const { return coupling.kind != CouplingKind::none; }
   /// U_ref of (14) and (22) [m/s].
