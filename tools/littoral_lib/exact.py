@@ -1,4 +1,6 @@
-"""Exact solutions the tools compare with: linear standing waves over a free-slip bottom, with viscosity.
+"""Exact solutions the tools compare with: standing waves, the oscillating drop, the rotating square patch.
+
+Linear standing waves over a free-slip bottom, with viscosity.
 
 Linearised Navier-Stokes on -H < z < 0 with u = grad phi + rot psi, phi harmonic and psi diffusing. The surface
 conditions (no shear, p = 2 rho nu w_z), Laplace transformed in time with an irrotational start, give
@@ -177,3 +179,59 @@ def hyperbolic_ratios(m, z, depth):
     echo = np.exp(-m * (z + 2 * depth))
     below = 1 - np.exp(-2 * m * depth)
     return (fall - echo) / below, (fall + echo) / below
+
+
+class OscillatingDrop:
+    """Ellipse of inviscid water, semi-axes a and b (a = b = radius at the start), in the central force -B^2 x.
+
+    The flow stays u = (s x, -s z); its pressure is zero on the ellipse, and with p = rho P (1 - x^2/a^2 - z^2/b^2)
+
+        s' = (s^2 + B^2) (b^2 - a^2)/(a^2 + b^2),   a' = s a,   b' = -s b,   P = (s^2 + B^2) a^2 b^2/(a^2 + b^2)
+
+    (Monaghan & Rafiee 2013). strain: s at the start [1/s]; force: B [1/s].
+    """
+
+    def __init__(self, radius, strain, force, end):
+        from scipy.integrate import solve_ivp
+        self.radius, self.strain, self.force = radius, strain, force
+        self._solution = solve_ivp(self._rates, (0.0, max(end, 10.0 / force)), (strain, radius, radius), rtol=1e-10,
+                                   atol=1e-12 * radius, dense_output=True, events=self._full_turn)
+
+    def _rates(self, _, state):
+        s, a, b = state
+        return (s * s + self.force**2) * (b * b - a * a) / (a * a + b * b), s * a, -s * b
+
+    def _full_turn(self, t, state):
+        return state[1] - state[2] if t > 0.0 else 1.0
+
+    _full_turn.direction = 1  # a rises through b: the circle with the strain of the start
+
+    @property
+    def period(self):
+        """Of the whole motion [s]."""
+        return float(self._solution.t_events[0][0])
+
+    def axes(self, time):
+        """a(t), b(t) [m]."""
+        _, a, b = self._solution.sol(np.asarray(time, dtype=float))
+        return a, b
+
+    @property
+    def longest_axis(self):
+        return float(self.axes(np.linspace(0.0, self.period, 4001))[0].max())
+
+
+def square_patch_pressure(x, z, side, rate, density=1.0, terms=40):
+    """Pressure [Pa] of a square patch at the moment it begins to rotate as a solid body with `rate` [1/s].
+
+    lap p = 2 rho rate^2, p = 0 on the sides x, z = +-side/2; cosine series in x. At the centre -0.14734 rho rate^2 L^2.
+    """
+    k = np.pi / side
+    x, z = np.asarray(x, dtype=float), np.asarray(z, dtype=float)
+    sum_ = x * x - side**2 / 4
+    for m in range(terms):
+        n = 2 * m + 1
+        # cosh(n k z)/cosh(n pi/2) without overflow
+        fall = (np.exp(n * k * (np.abs(z) - side / 2)) + np.exp(-n * k * (np.abs(z) + side / 2))) / (1 + np.exp(-n * np.pi))
+        sum_ = sum_ + (-1) ** m * 8 * side**2 / (np.pi * n) ** 3 * np.cos(n * k * x) * fall
+    return density * rate**2 * sum_

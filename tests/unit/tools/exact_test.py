@@ -5,7 +5,7 @@ import unittest
 
 import numpy as np
 import tools_path  # noqa: F401
-from littoral_lib.exact import StandingWave, normal_mode
+from littoral_lib.exact import OscillatingDrop, StandingWave, normal_mode, square_patch_pressure
 
 
 def wave(reynolds, **more):
@@ -76,6 +76,36 @@ class InitialValueProblem(unittest.TestCase):
         w = StandingWave(0.0, math.pi, 1.0, 1.0, 0.004, elevation=0.05)
         self.assertAlmostEqual(w.elevation(1e-4)[0], 0.05, delta=1e-6)
         self.assertLess(w.elevation(0.5 * w.period)[0], -0.03)
+
+
+class Drop(unittest.TestCase):
+    def test_period_and_longest_axis(self):
+        # both from an independent integration, for strain = force
+        for scale in (1.0, 2.5):
+            drop = OscillatingDrop(0.1, scale, scale, 14 / scale)
+            self.assertAlmostEqual(drop.period * scale, 4.82734, delta=1e-5)
+            self.assertAlmostEqual(drop.longest_axis / 0.1, 1.93185, delta=1e-5)
+
+    def test_area_stays_and_the_motion_repeats(self):
+        drop = OscillatingDrop(1.0, 1.0, 1.0, 14.5)
+        a, b = drop.axes(np.linspace(0, 14, 50))
+        np.testing.assert_allclose(a * b, 1.0, rtol=1e-8)
+        np.testing.assert_allclose(drop.axes(2 * drop.period + 0.3), drop.axes(0.3), rtol=1e-7)
+
+
+class SquarePatch(unittest.TestCase):
+    def test_pressure_at_the_centre(self):
+        self.assertAlmostEqual(float(square_patch_pressure(0, 0, 2.0, 3.0, 10.0)), -0.14734 * 10 * 9 * 4, delta=2e-3)
+
+    def test_satisfies_the_poisson_equation_and_the_sides(self):
+        h, x, z = 1e-3, 0.13, -0.21
+        p = lambda dx, dz: float(square_patch_pressure(x + dx, z + dz, 1.0, 1.0))
+        laplacian = (p(h, 0) + p(-h, 0) + p(0, h) + p(0, -h) - 4 * p(0, 0)) / h**2
+        self.assertAlmostEqual(laplacian, 2.0, delta=1e-5)
+        side = np.linspace(-0.5, 0.5, 11)
+        np.testing.assert_allclose(square_patch_pressure(0.5, side, 1.0, 1.0), 0.0, atol=1e-12)
+        # the series on z = +-1/2 converges as 1/n^2 at the corners
+        np.testing.assert_allclose(square_patch_pressure(side, 0.5, 1.0, 1.0), 0.0, atol=2e-5)
 
 
 if __name__ == "__main__":
