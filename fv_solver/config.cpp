@@ -23,8 +23,13 @@ const std::vector<std::pair<std::string, int>> k_conditions = {
 const std::array<std::string, 3> k_axes = {"x", "y", "z"};
 const std::vector<std::pair<std::string, int>> k_faces = {{"x_lower", 0}, {"x_upper", 1}, {"y_lower", 2},
                                                           {"y_upper", 3}, {"z_lower", 4}, {"z_upper", 5}};
+/// Faces of any block: a box's by axis, others' by direction.
 std::vector<std::pair<std::string, int>> faces_or_any() {
   auto words = k_faces;
+  for (int d = 0; d < 3; ++d)
+    for (int side = 0; side < 2; ++side)
+      words.emplace_back(std::string(1, "ijk"[d]) + (side == 0 ? "_lower" : "_upper"),
+                         FaceConfig::k_first_direction + 2 * d + side);
   words.emplace_back("any", -1);
   return words;
 }
@@ -70,7 +75,7 @@ void FaceConfig::bind(Binder& b) {
             [&] {
               b.key("block", join.block).doc("Name of the other block; left out: whichever is met.");
               b.choice("face", join.face, faces_or_any())
-                  .doc("Face of that block; i, j, k are x, y, z (in 2-D x, z).");
+                  .doc("Face of that block: x, y, z of a box, else i, j, k.");
               b.key("offset", join.offset)
                   .unit("m")
                   .doc("A place here is one there plus this: joins any pair of faces as periodic.");

@@ -28,6 +28,8 @@ struct Stretching {
 /// Condition on a face or on a part of it.
 struct FaceConfig {
   enum class Kind : std::uint8_t { by_scene = 100 };  // beside Condition's values
+  /// Faces are numbered 2 * axis + side, axis x, y, z; or from here 2 * direction + side, direction i, j, k.
+  static constexpr int k_first_direction = 10;
   int condition = static_cast<int>(Kind::by_scene);
   std::string name;                         // "" : block.face
   std::optional<support::Formula> u, v, w;  // [m/s]

@@ -68,10 +68,11 @@ using VectorField = std::array<Field, D>;
 template <int D>
 struct Block {
   std::string name;
-  Extent<D> extent;                    // of cells
-  Extent<D> node_extent;               // of nodes: one more than cells in each direction
-  std::array<bool, D> periodic{};      // the block closes on itself in this direction
-  bool cartesian_names = false;        // faces are called x_lower, ...; else i_lower, ...
+  Extent<D> extent;                // of cells
+  Extent<D> node_extent;           // of nodes: one more than cells in each direction
+  std::array<bool, D> periodic{};  // the block closes on itself in this direction
+  std::array<std::array<std::string, 2>, D>
+      face_names;                      // for messages; empty: i_lower, i_upper, j_lower, ...
   VectorField<D> node;                 // [m] node (i, j, k) is the lower corner of cell (i, j, k); ghosts set
   VectorField<D> centre;               // [m] mean of the corners, ghosts included
   Field volume;                        // [m^D] ghosts included (mirrored or periodic)
@@ -81,6 +82,14 @@ struct Block {
   Field solved;                        // 1 where the rows are solved (computed, forced), else 0; ghosts 0
   std::vector<Window<D>> windows;      // cover every face once
 };
+
+/// What a face is called. pure
+template <int D>
+std::string face_name(const Block<D>& block, int direction, int side) {
+  const auto d = static_cast<std::size_t>(direction);
+  const std::string& given = block.face_names[d][static_cast<std::size_t>(side)];
+  return given.empty() ? std::string(1, "ijk"[d]) + (side == 0 ? "_lower" : "_upper") : given;
+}
 
 /// Unknowns of one block: pressure and velocity at the cell centres, ghosts included.
 template <int D>

@@ -2,17 +2,12 @@
 
 #include "config.hpp"
 #include "grid/block.hpp"
+#include "grid/face_windows.hpp"
 
 namespace littoral::fv {
 
 /// Position of node i of n cells along [0, 1].
 double stretched(const Stretching& stretching, int i, int n);
-
-/// How a block stands among others.
-struct Neighbourhood {
-  bool automatic = true;  // faces by the scene join what they meet
-  bool alone = true;      // one block only: a periodic direction of the scene is its own
-};
 
 /// The block of a configuration: nodes, metrics and windows. Where a face says `scene`, the condition is the
 /// scene's for that side of its domain. Joins are requested, not found yet (find_joins).

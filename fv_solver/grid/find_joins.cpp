@@ -465,13 +465,6 @@ void close_on_themselves(std::vector<Block<D>>& blocks) {
 }  // namespace
 
 template <int D>
-std::string face_name(const Block<D>& block, int direction, int side) {
-  const auto d = static_cast<std::size_t>(direction);
-  const char letter = block.cartesian_names ? "xyz"[axis_in_space<D>(d)] : "ijk"[d];
-  return std::string(1, letter) + (side == 0 ? "_lower" : "_upper");
-}
-
-template <int D>
 std::vector<std::string> find_joins(std::vector<Block<D>>& blocks) {
   Finder<D> finder(blocks);
   if (!finder.any()) return {};
@@ -487,8 +480,6 @@ std::vector<std::string> find_joins(std::vector<Block<D>>& blocks) {
   return lines;
 }
 
-template std::string face_name<2>(const Block<2>&, int, int);
-template std::string face_name<3>(const Block<3>&, int, int);
 template std::vector<std::string> find_joins(std::vector<Block<2>>&);
 template std::vector<std::string> find_joins(std::vector<Block<3>>&);
 

@@ -17,8 +17,4 @@ namespace littoral::fv {
 template <int D>
 std::vector<std::string> find_joins(std::vector<Block<D>>& blocks);
 
-/// "x_lower" of a box, "i_lower" of other blocks: the name of a face. pure
-template <int D>
-std::string face_name(const Block<D>& block, int direction, int side);
-
 }  // namespace littoral::fv
