@@ -36,7 +36,7 @@ std::vector<std::pair<std::string, int>> faces_or_any() {
 
 }  // namespace
 
-void Stretching::bind(Binder& b) {
+void Spacing::bind(Binder& b) {
   b.choice("kind", kind, {{"uniform", Kind::uniform}, {"geometric", Kind::geometric}, {"tanh", Kind::tanh}})
       .doc(
           "uniform: equal cells; geometric: each a fixed factor wider than the next; tanh: smooth, finest at "
@@ -44,10 +44,61 @@ void Stretching::bind(Binder& b) {
   b.key("ratio", ratio).min(1.0).doc("geometric: width of the widest cell over the narrowest.");
   b.key("strength", strength)
       .exclusive_min(0)
-      .max(10)
+      .max(20)
       .doc("tanh: argument at the ends; larger is finer there.");
+  b.key("first_cell", first_cell)
+      .unit("m")
+      .exclusive_min(0)
+      .doc("Width of the narrowest cell, from which ratio or strength then follow; auto: they are given.");
   b.choice("toward", toward, {{"lower", Toward::lower}, {"upper", Toward::upper}, {"both", Toward::both}})
       .doc("Where the narrow cells are.");
+}
+
+void Stretching::bind(Binder& b) {
+  Spacing::bind(b);
+  b.list<Section>("sections", "Sections from the lower end to the upper one, instead of one law for all.",
+                  sections, [](Binder& item, Section& section) {
+                    item.key("to", section.to).unit("m").required().doc("Where the section ends.");
+                    item.key("cells", section.cells).required().min(1).doc("Its cells.");
+                    section.spacing.bind(item);
+                  });
+}
+
+void SpanConfig::bind(Binder& b) {
+  b.key("lower", lower).unit("m").doc("Lower end.");
+  b.key("upper", upper).unit("m").doc("Upper end.");
+  b.key("cells", cells).min(1).doc("Equal cells.");
+  b.section("lower_face", "Condition at the lower end.", [&] { faces[0].bind(b); });
+  b.section("upper_face", "Condition at the upper end.", [&] { faces[1].bind(b); });
+}
+
+void RingConfig::bind(Binder& b) {
+  b.key("name", name).doc("For messages, fields and faces.");
+  b.key("centre", centre).unit("m").doc("A point on the cylinder's axis.");
+  b.key("radius", radius).unit("m").required().exclusive_min(0).doc("Of the cylinder.");
+  b.key("outer_radius", outer_radius).unit("m").doc("Where the ring ends; this or thickness.");
+  b.key("thickness", thickness).unit("m").exclusive_min(0).doc("Outer less inner radius.");
+  b.key("around", around).required().min(3).doc("Equal cells around.");
+  b.key("outward", outward).required().min(1).doc("Cells from the cylinder outward.");
+  b.section("spacing", "Of the cells outward.", [&] { spacing.bind(b); });
+  b.key("start_angle", start_angle).unit("degree").doc("Where the cells around begin, from x towards z.");
+  b.section("span", "Extent along y; 3-D only.", [&] { span.bind(b); });
+  b.section("inner", "Condition on the cylinder.", [&] { faces[inner].bind(b); });
+  b.section("outer", "Condition on the outer edge.", [&] { faces[outer].bind(b); });
+  b.list<Patch>(
+      "patches", "Parts of a face with another condition; later ones win.", patches,
+      [](Binder& item, Patch& patch) {
+        item.choice("face", patch.face,
+                    {{"inner", static_cast<int>(inner)}, {"outer", static_cast<int>(outer)}})
+            .doc("Which face.");
+        item.key("from", patch.from).min(0).doc("First cell around, outward (not used), along the span.");
+        item.key("to", patch.to).min(0).doc("One past the last cell.");
+        patch.condition.bind(item);
+      });
+  if (b.mode() != Binder::Mode::read) return;
+  b.check(outer_radius.has_value() != thickness.has_value(), "rings",
+          "give outer_radius or thickness, one of them.");
+  b.check(!outer_radius || *outer_radius > radius, "rings", "outer_radius is not larger than radius.");
 }
 
 void FaceConfig::bind(Binder& b) {
@@ -120,6 +171,8 @@ void FvConfig::bind(Binder& b) {
           "face; listed: only faces with condition join are.");
   b.list<BlockConfig>("blocks", "Blocks of the grid.", blocks,
                       [](Binder& item, BlockConfig& block) { block.bind(item); });
+  b.list<RingConfig>("rings", "O-grids around cylinders.", rings,
+                     [](Binder& item, RingConfig& ring) { ring.bind(item); });
   b.section("time", "Steps of a run without partner, and bounds on the windows of a coupled one.", [&] {
     b.key("dt", time.dt).unit("s").exclusive_min(0).doc("Time step.");
     b.key("cfl", time.cfl)
@@ -194,7 +247,7 @@ void FvConfig::bind(Binder& b) {
         .doc("Steps between rows of scalars.csv and gauges.csv.");
   });
   if (b.mode() != Binder::Mode::read) return;
-  b.check(!blocks.empty(), "blocks", "a grid needs at least one block.");
+  b.check(!blocks.empty() || !rings.empty(), "blocks", "a grid needs at least one block or ring.");
   b.check(!(time.dt && time.cfl), "time.cfl", "given together with time.dt; give one of them.");
   for (const auto& g : gauges)
     b.check(g.kind == GaugeConfig::Kind::point || !g.wall.empty(), "gauges",

@@ -14,14 +14,26 @@
 
 namespace littoral::fv {
 
-/// How cell widths change along one direction of a box.
-struct Stretching {
+/// How cell widths change along a line.
+struct Spacing {
   enum class Kind : std::uint8_t { uniform, geometric, tanh };
   enum class Toward : std::uint8_t { lower, upper, both };
   Kind kind = Kind::uniform;
-  double ratio = 1.0;             // geometric: width of the largest over the smallest cell
-  double strength = 2.0;          // tanh: larger is finer at the refined ends
-  Toward toward = Toward::lower;  // where the cells are small
+  double ratio = 1.0;                // geometric: width of the largest over the smallest cell
+  double strength = 2.0;             // tanh: larger is finer at the refined ends
+  std::optional<double> first_cell;  // [m] width of the narrowest cell, instead of ratio or strength
+  Toward toward = Toward::lower;     // where the cells are small
+  void bind(support::Binder& b);
+};
+
+/// The same along one direction of a box, perhaps section by section.
+struct Stretching : Spacing {
+  struct Section {
+    double to = 0.0;  // [m]
+    int cells = 1;
+    Spacing spacing;
+  };
+  std::vector<Section> sections;
   void bind(support::Binder& b);
 };
 
@@ -61,6 +73,35 @@ struct BlockConfig {
   void bind(support::Binder& b);
 };
 
+/// Extent of a grid across the plane of its description, in 3-D; a plane has none.
+struct SpanConfig {
+  double lower = 0.0, upper = 0.0;  // [m] along y
+  int cells = 1;
+  std::array<FaceConfig, 2> faces;  // lower, upper
+  void bind(support::Binder& b);
+};
+
+/// An O-grid around a cylinder whose axis is along y: directions around, outward, along the span.
+struct RingConfig {
+  enum Face : int { inner, outer };
+  struct Patch {  // a part of a face
+    int face = inner;
+    std::array<int, 3> from = {0, 0, 0}, to = {0, 0, 0};  // cells around, outward, along the span
+    FaceConfig condition;
+  };
+  std::string name = "ring";
+  std::array<double, 3> centre = {0, 0, 0};       // [m]
+  double radius = 0.0;                            // [m]
+  std::optional<double> outer_radius, thickness;  // [m] one of them
+  int around = 0, outward = 0;                    // cells
+  Spacing spacing;                                // outward
+  double start_angle = 0.0;                       // [degree] where the cells around begin
+  SpanConfig span;
+  std::array<FaceConfig, 2> faces;  // inner, outer
+  std::vector<Patch> patches;
+  void bind(support::Binder& b);
+};
+
 struct GaugeConfig {
   enum class Kind : std::uint8_t { point, force, y_plus };
   std::string name;
@@ -76,6 +117,7 @@ struct FvConfig {
   enum class Joins : std::uint8_t { automatic, listed };
   Joins joins = Joins::automatic;
   std::vector<BlockConfig> blocks;
+  std::vector<RingConfig> rings;
 
   struct Time {
     std::optional<double> dt;   // [s] alone, or an upper bound in a coupled run

@@ -6,6 +6,7 @@
 #include "dual_time/plain.hpp"
 #include "grid/box.hpp"
 #include "grid/find_joins.hpp"
+#include "grid/ring.hpp"
 #include "grid/space.hpp"
 #include "implicit/multigrid_solver.hpp"
 #include "littoral/error.hpp"
@@ -59,13 +60,17 @@ Grid<D> build_grid(const FvConfig& config, const support::Scene& scene) {
   std::string problems;
   Neighbourhood others;
   others.automatic = config.joins == FvConfig::Joins::automatic;
-  others.alone = config.blocks.size() == 1;
-  for (const BlockConfig& block : config.blocks) try {
-      grid.blocks.push_back(build_block<D>(block, scene, others));
+  others.alone = config.blocks.size() + config.rings.size() == 1;
+  const auto add = [&](auto&& build) {
+    try {
+      grid.blocks.push_back(build());
       check_windows(grid.blocks.back());
     } catch (const ConfigError& problem) {
       problems += (problems.empty() ? "" : "\n") + std::string(problem.what());
     }
+  };
+  for (const BlockConfig& block : config.blocks) add([&] { return build_block<D>(block, scene, others); });
+  for (const RingConfig& ring : config.rings) add([&] { return build_ring<D>(ring, scene, others); });
   if (!problems.empty()) throw ConfigError(problems);
   grid.joins = find_joins(grid.blocks);
   check_gravity<D>(grid.blocks, scene);

@@ -1,9 +1,5 @@
 #include "grid/box.hpp"
 
-#include <algorithm>
-#include <cmath>
-
-#include "grid/loops.hpp"
 #include "grid/metrics.hpp"
 #include "grid/space.hpp"
 #include "littoral/error.hpp"
@@ -14,30 +10,7 @@ namespace {
 const char* const k_axis_names[] = {"x", "y", "z"};
 const char* const k_side_names[] = {"lower", "upper"};
 
-/// One of two equal ends of a geometric series, n cells, widest over narrowest = ratio, narrow at 0.
-double geometric(double ratio, double i, double n) {
-  if (n <= 1.0 || ratio == 1.0) return i / n;
-  const double q = std::pow(ratio, 1.0 / (n - 1.0));
-  return std::expm1(i * std::log(q)) / std::expm1(n * std::log(q));
-}
-
 }  // namespace
-
-double stretched(const Stretching& stretching, int i, int n) {
-  const double s = static_cast<double>(i) / n;
-  const auto toward = stretching.toward;
-  using Toward = Stretching::Toward;
-  // distances from a refined lower end; the other cases are its mirror images
-  const auto from_lower = [&](double index, double count) {
-    if (stretching.kind == Stretching::Kind::geometric) return geometric(stretching.ratio, index, count);
-    return 1.0 - std::tanh(stretching.strength * (1.0 - index / count)) / std::tanh(stretching.strength);
-  };
-  if (stretching.kind == Stretching::Kind::uniform) return s;
-  if (toward == Toward::lower) return from_lower(i, n);
-  if (toward == Toward::upper) return 1.0 - from_lower(n - i, n);
-  const double half = 0.5 * n;
-  return s <= 0.5 ? 0.5 * from_lower(i, half) : 1.0 - 0.5 * from_lower(n - i, half);
-}
 
 template <int D>
 Block<D> build_block(const BlockConfig& config, const support::Scene& scene, const Neighbourhood& others) {
@@ -46,12 +19,15 @@ Block<D> build_block(const BlockConfig& config, const support::Scene& scene, con
   FaceConditions<D> conditions;
   std::array<int, D> cells;
   std::array<std::size_t, 3> direction_of{};
+  std::array<std::vector<double>, D> nodes;
   for (std::size_t d = 0; d < D; ++d) {
     const std::size_t a = axis_in_space<D>(d);
     direction_of[a] = d;
     cells[d] = config.cells[a];
     if (!(config.lower[a] < config.upper[a]))
       throw ConfigError("block '" + config.name + "': upper is not above lower along " + k_axis_names[a]);
+    nodes[d] = node_positions(config.stretching[a], cells[d], config.lower[a], config.upper[a],
+                              "block '" + config.name + "', stretching." + k_axis_names[a]);
     conditions.scene_axis[d] = static_cast<int>(a);
     conditions.length[d] = config.upper[a] - config.lower[a];
     for (std::size_t side = 0; side < 2; ++side) {
@@ -77,8 +53,7 @@ Block<D> build_block(const BlockConfig& config, const support::Scene& scene, con
     std::array<double, 3> box = config.lower;
     for (std::size_t d = 0; d < D; ++d) {
       const std::size_t a = axis_in_space<D>(d);
-      const double s = stretched(config.stretching[a], index[d], cells[d]);
-      box[a] = config.lower[a] + (config.upper[a] - config.lower[a]) * s;
+      box[a] = nodes[d][static_cast<std::size_t>(index[d])];
     }
     std::array<double, D> x;
     for (std::size_t d = 0; d < D; ++d) {

@@ -3,11 +3,9 @@
 #include "config.hpp"
 #include "grid/block.hpp"
 #include "grid/face_windows.hpp"
+#include "grid/stretching.hpp"
 
 namespace littoral::fv {
-
-/// Position of node i of n cells along [0, 1].
-double stretched(const Stretching& stretching, int i, int n);
 
 /// The block of a configuration: nodes, metrics and windows. Where a face says `scene`, the condition is the
 /// scene's for that side of its domain. Joins are requested, not found yet (find_joins).

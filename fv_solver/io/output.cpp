@@ -24,6 +24,10 @@ std::vector<std::string> named_walls(const FvConfig& config, const std::vector<B
     for (const FaceConfig& face : block.faces) given.push_back(face.name);
     for (const PatchConfig& patch : block.patches) given.push_back(patch.condition.name);
   }
+  for (const RingConfig& ring : config.rings) {
+    for (const FaceConfig& face : ring.faces) given.push_back(face.name);
+    for (const RingConfig::Patch& patch : ring.patches) given.push_back(patch.condition.name);
+  }
   for (const Block<D>& block : blocks)
     for (const Window<D>& w : block.windows) {
       const bool solid = w.condition == Condition::wall || w.condition == Condition::slip;
