@@ -29,6 +29,7 @@ Dynamics<D>::Dynamics(const Numerics<D>& numerics, const DomainBox<D>& box)
       ghosts_(box),
       neighbors_(numerics.kernel_radius, numerics.skin),
       shifting_(numerics.reference_velocity, numerics.spacing) {
+  if (numerics.precision == Precision::mixed) rows_.template emplace<PairRows<D, float>>();
   double g = 0.0;
   for (double component : numerics.gravity) g += std::fabs(component);
   if (g > 0.0) terms_.push_back(std::make_unique<Gravity<D>>(numerics.gravity));
@@ -79,23 +80,32 @@ void Dynamics<D>::prepare(Particles<D>& particles, double t, StepHooks<D>* hooks
 }
 
 template <int D>
+template <class Real>
+void Dynamics<D>::pair_loops(const Particles<D>& particles, PairRows<D, Real>& rows) {
+  const bool second_order = numerics_.reconstruction != Reconstruction::first_order;
+  {
+    const PhaseSeconds::Scope scope(seconds_, Phase::gradients);
+    rows.pack_states(particles, Kernel<D>(numerics_.kernel_radius), numerics_.eos.p0);
+    if (second_order) {
+      compute_gradients(rows, neighbors_, gradients_);  // (S3)
+      ghosts_.refresh(gradients_, particles.n_owned);
+    }
+  }
+  const PhaseSeconds::Scope scope(seconds_, Phase::fluxes);
+  rows.pack_faces(particles, second_order ? &gradients_ : nullptr);
+  riemann_fluxes(particles, rows, neighbors_, numerics_.eos, numerics_.reconstruction, numerics_.riemann,
+                 rate_);  // (S4)-(S7)
+  work_.pairs += static_cast<std::int64_t>(neighbors_.n_pairs());
+}
+
+template <int D>
 void Dynamics<D>::right_hand_side(Particles<D>& particles, double t) {
   {
     const PhaseSeconds::Scope scope(seconds_, Phase::lists);
     ghosts_.refresh(particles);
     if (neighbors_.outdated(particles)) build_lists(particles);  // in the middle of a step: no sorting
   }
-  if (numerics_.reconstruction != Reconstruction::first_order) {
-    const PhaseSeconds::Scope scope(seconds_, Phase::gradients);
-    compute_gradients(particles, neighbors_, gradients_);  // (S3)
-    ghosts_.refresh(gradients_, particles.n_owned);
-  }
-  {
-    const PhaseSeconds::Scope scope(seconds_, Phase::fluxes);
-    riemann_fluxes(particles, neighbors_, gradients_, numerics_.eos, numerics_.reconstruction,
-                   numerics_.riemann, rate_);
-    work_.pairs += static_cast<std::int64_t>(neighbors_.n_pairs());
-  }
+  std::visit([&](auto& rows) { pair_loops(particles, rows); }, rows_);
   const PhaseSeconds::Scope scope(seconds_, Phase::terms);
   for (const auto& term : terms_) term->add(particles, neighbors_, t, rate_);
 }

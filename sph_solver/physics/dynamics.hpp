@@ -3,11 +3,13 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <variant>
 #include <vector>
 
 #include "boundary/domain_box.hpp"
 #include "boundary/ghosts.hpp"
 #include "neighbors/neighbor_list.hpp"
+#include "pairs/pair_rows.hpp"
 #include "particles/particles.hpp"
 #include "physics/gradients.hpp"
 #include "physics/numerics.hpp"
@@ -72,6 +74,8 @@ class Dynamics {
 
  private:
   void build_lists(Particles<D>& particles);
+  template <class Real>
+  void pair_loops(const Particles<D>& particles, PairRows<D, Real>& rows);
   void update(Particles<D>& particles, double advance, double weight, bool last, double dt);
   void remember_start(const Particles<D>& particles);
   void check(const Particles<D>& particles, double t, double dt) const;
@@ -79,6 +83,7 @@ class Dynamics {
   Numerics<D> numerics_;
   Ghosts<D> ghosts_;
   NeighborList<D> neighbors_;
+  std::variant<PairRows<D, double>, PairRows<D, float>> rows_;  // for numerics_.precision
   Gradients<D> gradients_;
   Rate<D> rate_;
   SurfaceDetection<D> surface_;

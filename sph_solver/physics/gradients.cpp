@@ -1,5 +1,6 @@
 #include "physics/gradients.hpp"
 
+#include "pairs/pair_rows.hpp"
 #include "physics/kernel.hpp"
 #include "physics/symmetric_matrix.hpp"
 
@@ -18,82 +19,38 @@ struct Sums {
   std::array<std::array<double, D>, D> u;
 };
 
-Sums<2> sum_pairs(const Particles<2>& particles, const Kernel<2>& kernel, std::size_t i,
-                  const std::int32_t* __restrict list, std::size_t count) {
-  const double* __restrict x = particles.x[0].data();
-  const double* __restrict z = particles.x[1].data();
-  const double* __restrict u = particles.u[0].data();
-  const double* __restrict w = particles.u[1].data();
-  const double* __restrict p = particles.p.data();
-  const double* __restrict V = particles.V.data();
-  const double xi = x[i], zi = z[i], ui = u[i], wi = w[i], pi = p[i];
-  const double inv_R = kernel.inv_R, slope = -kernel.slope;
-  double bxx = 0, bxz = 0, bzz = 0, px = 0, pz = 0, ux = 0, uz = 0, wx = 0, wz = 0;
-#pragma omp simd reduction(+ : bxx, bxz, bzz, px, pz, ux, uz, wx, wz)
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::int32_t j = list[k];
-    const double dx = x[j] - xi, dz = z[j] - zi;
-    const double s = 1.0 - std::sqrt(dx * dx + dz * dz) * inv_R;
-    const double q = s > 0.0 ? s : 0.0;
-    const double f = slope * V[j] * q * q * q;
-    const double fx = f * dx, fz = f * dz;
-    bxx += fx * dx;
-    bxz += fx * dz;
-    bzz += fz * dz;
-    const double dp = p[j] - pi, du = u[j] - ui, dw = w[j] - wi;
-    px += dp * fx;
-    pz += dp * fz;
-    ux += du * fx;
-    uz += du * fz;
-    wx += dw * fx;
-    wz += dw * fz;
+template <int D, class Real>
+Sums<D> sum_pairs(const PairRows<D, Real>& rows, Real inv_R, std::size_t i, const std::int32_t* list,
+                  std::size_t count) {
+  using Rows = PairRows<D, Real>;
+  using Vector = Lanes<Real>;
+  constexpr std::size_t k_fields = D + 1;  // u, p: as they stand in a row
+  constexpr std::size_t k_read = Rows::whole_units(Rows::k_n_state);
+  const Real* table = rows.states();
+  const Real* own = rows.state(i).q + Rows::k_u;
+  Vector B[D * (D + 1) / 2] = {}, slope[k_fields][D] = {};
+  for_each_group<Real>(list, count, i, [&](const std::int32_t* j) {
+    Vector q[k_read], x[D];
+    load_rows<k_read, Rows::k_state_stride>(table, j, q);
+    separations(q, rows, i, x);
+    Vector r2 = x[0] * x[0];
+    for (std::size_t d = 1; d < D; ++d) r2 += x[d] * x[d];
+    const Vector s = largest(Real(1) - sqrt(r2) * inv_R, Vector{});
+    const Vector f = q[Rows::k_V] * (s * s * s);
+    std::size_t next = 0;
+    for (std::size_t a = 0; a < D; ++a) {
+      const Vector fx = f * x[a];
+      for (std::size_t b = a; b < D; ++b) B[next++] += fx * x[b];
+      for (std::size_t c = 0; c < k_fields; ++c) slope[c][a] += (q[Rows::k_u + c] - own[c]) * fx;
+    }
+  });
+  Sums<D> sums;
+  for (std::size_t a = 0; a < D * (D + 1) / 2; ++a) sums.B.a[a] = sum(B[a]);
+  for (std::size_t b = 0; b < D; ++b) {
+    for (std::size_t a = 0; a < D; ++a) sums.u[a][b] = sum(slope[a][b]);
+    sums.p[b] = sum(slope[D][b]);
   }
-  return {{{bxx, bxz, bzz}}, {px, pz}, {{{ux, uz}, {wx, wz}}}};
-}
-
-Sums<3> sum_pairs(const Particles<3>& particles, const Kernel<3>& kernel, std::size_t i,
-                  const std::int32_t* __restrict list, std::size_t count) {
-  const double* __restrict x = particles.x[0].data();
-  const double* __restrict y = particles.x[1].data();
-  const double* __restrict z = particles.x[2].data();
-  const double* __restrict u = particles.u[0].data();
-  const double* __restrict v = particles.u[1].data();
-  const double* __restrict w = particles.u[2].data();
-  const double* __restrict p = particles.p.data();
-  const double* __restrict V = particles.V.data();
-  const double xi = x[i], yi = y[i], zi = z[i], ui = u[i], vi = v[i], wi = w[i], pi = p[i];
-  const double inv_R = kernel.inv_R, slope = -kernel.slope;
-  double bxx = 0, bxy = 0, bxz = 0, byy = 0, byz = 0, bzz = 0, px = 0, py = 0, pz = 0;
-  double ux = 0, uy = 0, uz = 0, vx = 0, vy = 0, vz = 0, wx = 0, wy = 0, wz = 0;
-#pragma omp simd reduction(+ : bxx, bxy, bxz, byy, byz, bzz, px, py, pz, ux, uy, uz, vx, vy, vz, wx, wy, wz)
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::int32_t j = list[k];
-    const double dx = x[j] - xi, dy = y[j] - yi, dz = z[j] - zi;
-    const double s = 1.0 - std::sqrt(dx * dx + dy * dy + dz * dz) * inv_R;
-    const double q = s > 0.0 ? s : 0.0;
-    const double f = slope * V[j] * q * q * q;
-    const double fx = f * dx, fy = f * dy, fz = f * dz;
-    bxx += fx * dx;
-    bxy += fx * dy;
-    bxz += fx * dz;
-    byy += fy * dy;
-    byz += fy * dz;
-    bzz += fz * dz;
-    const double dp = p[j] - pi, du = u[j] - ui, dv = v[j] - vi, dw = w[j] - wi;
-    px += dp * fx;
-    py += dp * fy;
-    pz += dp * fz;
-    ux += du * fx;
-    uy += du * fy;
-    uz += du * fz;
-    vx += dv * fx;
-    vy += dv * fy;
-    vz += dv * fz;
-    wx += dw * fx;
-    wy += dw * fy;
-    wz += dw * fz;
-  }
-  return {{{bxx, bxy, bxz, byy, byz, bzz}}, {px, py, pz}, {{{ux, uy, uz}, {vx, vy, vz}, {wx, wy, wz}}}};
+  return sums;
 }
 
 }  // namespace
@@ -105,18 +62,17 @@ void Gradients<D>::resize(std::size_t n) {
     for (auto& column : row) column.resize(n);
 }
 
-template <int D>
-void compute_gradients(const Particles<D>& particles, const NeighborList<D>& neighbors,
+template <int D, class Real>
+void compute_gradients(const PairRows<D, Real>& rows, const NeighborList<D>& neighbors,
                        Gradients<D>& gradients) {
-  gradients.resize(particles.size());
-  const Kernel<D> kernel(neighbors.kernel_radius());
-  const auto n = static_cast<std::ptrdiff_t>(particles.n_owned);
+  gradients.resize(rows.size());
+  const auto inv_R = static_cast<Real>(1.0 / neighbors.kernel_radius());
+  const auto n = static_cast<std::ptrdiff_t>(rows.n_owned());
 #pragma omp parallel for schedule(static)
   for (std::ptrdiff_t row = 0; row < n; ++row) {
     const auto i = static_cast<std::size_t>(row);
     const std::size_t begin = neighbors.start()[i];
-    const auto sums =
-        sum_pairs(particles, kernel, i, neighbors.list() + begin, neighbors.start()[i + 1] - begin);
+    const auto sums = sum_pairs(rows, inv_R, i, neighbors.list() + begin, neighbors.start()[i + 1] - begin);
     SymmetricMatrix<D> L;
     if (sums.B.least_eigenvalue_at_least() > k_least_eigenvalue) L = sums.B.inverse();
     const auto grad_p = L * sums.p;
@@ -128,8 +84,20 @@ void compute_gradients(const Particles<D>& particles, const NeighborList<D>& nei
   }
 }
 
+template <int D>
+void compute_gradients(const Particles<D>& particles, const NeighborList<D>& neighbors,
+                       Gradients<D>& gradients) {
+  PairRows<D, double> rows;
+  rows.pack_states(particles, Kernel<D>(neighbors.kernel_radius()), 0.0);
+  compute_gradients(rows, neighbors, gradients);
+}
+
 template struct Gradients<2>;
 template struct Gradients<3>;
+template void compute_gradients(const PairRows<2, double>&, const NeighborList<2>&, Gradients<2>&);
+template void compute_gradients(const PairRows<3, double>&, const NeighborList<3>&, Gradients<3>&);
+template void compute_gradients(const PairRows<2, float>&, const NeighborList<2>&, Gradients<2>&);
+template void compute_gradients(const PairRows<3, float>&, const NeighborList<3>&, Gradients<3>&);
 template void compute_gradients<2>(const Particles<2>&, const NeighborList<2>&, Gradients<2>&);
 template void compute_gradients<3>(const Particles<3>&, const NeighborList<3>&, Gradients<3>&);
 

@@ -8,6 +8,9 @@
 
 namespace littoral::sph {
 
+template <int D, class Real>
+class PairRows;
+
 /// Gradients of p and u at every particle (n_owned + n_ghost).
 template <int D>
 struct Gradients {
@@ -19,8 +22,14 @@ struct Gradients {
 
 /// Renormalised gradients (S3): grad q_i = B_i^-1 sum_j V_j (q_j - q_i) grad W_ij, exact for linear fields on
 /// any cloud. Where the neighbours nearly lie in a plane (spray) B has no usable inverse and the gradient is
-/// 0: first order. in    particles.x .u .p .V, copies current out   gradients, owned part (the caller
-/// refreshes the copies) comm  local
+/// 0: first order.
+/// in    rows with states, copies current
+/// out   gradients, owned part (the caller refreshes the copies)
+/// comm  local
+template <int D, class Real>
+void compute_gradients(const PairRows<D, Real>& rows, const NeighborList<D>& neighbors,
+                       Gradients<D>& gradients);
+/// The same in double, packing rows for this call alone.
 template <int D>
 void compute_gradients(const Particles<D>& particles, const NeighborList<D>& neighbors,
                        Gradients<D>& gradients);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 
 #include "littoral/support/formula.hpp"
@@ -8,6 +9,10 @@
 #include "physics/riemann.hpp"
 
 namespace littoral::sph {
+
+/// How the pair loops calculate. mixed: geometry, kernel and face states of a pair in float; what they are
+/// summed to, and the particles themselves, in double.
+enum class Precision : std::uint8_t { all_double, mixed };
 
 /// Everything the equations of the particles depend on; a scene and an sph.yaml in numbers.
 template <int D>
@@ -22,6 +27,7 @@ struct Numerics {
   double skin = 0.0;                                          // of the neighbour lists [m]
   Reconstruction reconstruction = Reconstruction::unlimited;
   RiemannSolver riemann = RiemannSolver::linearised;
+  Precision precision = Precision::all_double;
   bool shifting = true;
   double reference_velocity = 0.0;  // U of (14) [m/s]
   double cfl = 0.375;               // CFL_a of (16)

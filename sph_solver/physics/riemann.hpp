@@ -15,13 +15,16 @@ enum class Reconstruction : std::uint8_t { first_order, unlimited, minmod, van_l
 ///                    (Zhang, Hu & Adams 2017): sound is damped less than by (12), and so is everything else
 enum class RiemannSolver : std::uint8_t { linearised, low_dissipation };
 
-/// Speed that multiplies the jump of velocity in p_E; closing: u_l - u_r.
-template <RiemannSolver solver>
-inline double dissipation_speed(double closing, double c) {
-  if constexpr (solver == RiemannSolver::linearised) return c;
-  constexpr double k_strength = 3.0;  // Zhang, Hu & Adams 2017
-  const double speed = closing > 0.0 ? k_strength * closing : 0.0;
-  return speed < c ? speed : c;
+/// Speed that multiplies the jump of velocity in p_E; closing: u_l - u_r. Value: a number or lanes of them.
+template <RiemannSolver solver, class Value, class Number>
+inline auto dissipation_speed(Value closing, Number c) {
+  if constexpr (solver == RiemannSolver::linearised) {
+    return c;
+  } else {
+    constexpr auto k_strength = static_cast<Number>(3.0);  // Zhang, Hu & Adams 2017
+    const Value speed = closing > 0 ? k_strength * closing : Value{};
+    return speed < c ? speed : Value{} + c;
+  }
 }
 
 /// Solution of the linearised Riemann problem (S5), along the line from i to j.
@@ -43,22 +46,24 @@ inline FaceState riemann_state(double rho_l, double u_l, double p_l, double rho_
 
 /// Difference the reconstruction adds over the whole distance i to j, seen from one side (S4). `centred`: the
 /// particle's own gradient times the distance, `across`: q_j - q_i. Limited variants compare `across` with
-/// the upwind difference 2 centred - across.
-template <Reconstruction variant>
-inline double limited_difference(double centred, double across) {
+/// the upwind difference 2 centred - across. Value: a number or lanes of them.
+template <Reconstruction variant, class Value>
+inline Value limited_difference(Value centred, Value across) {
+  if constexpr (variant == Reconstruction::first_order) return Value{};
   if constexpr (variant == Reconstruction::unlimited) return centred;
-  const double upwind = 2.0 * centred - across;
-  const double product = upwind * across;
+  const Value upwind = centred + centred - across;
+  const Value product = upwind * across;
   if constexpr (variant == Reconstruction::minmod) {
-    const double smaller = std::fabs(upwind) < std::fabs(across) ? upwind : across;
-    return product > 0.0 ? smaller : 0.0;
+    // of two of one sign the smaller in size has the smaller square
+    const Value smaller = upwind * upwind < across * across ? upwind : across;
+    return product > 0 ? smaller : Value{};
   }
   if constexpr (variant == Reconstruction::van_leer) {
-    const double sum = product > 0.0 ? upwind + across : 1.0;  // never divides by zero in a discarded lane
-    const double harmonic = 2.0 * product / sum;
-    return product > 0.0 ? harmonic : 0.0;
+    const Value sum =
+        product > 0 ? upwind + across : Value{} + 1;  // never divides by zero in a discarded lane
+    const Value harmonic = (product + product) / sum;
+    return product > 0 ? harmonic : Value{};
   }
-  return 0.0;
 }
 
 }  // namespace littoral::sph
