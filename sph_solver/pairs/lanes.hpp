@@ -65,7 +65,7 @@ inline double sum(Lanes<float> v) {
 /// value a. n is a multiple of the unit. Loads of whole units and a few shuffles: cheaper than n gathers.
 template <std::size_t n, std::size_t stride>
 inline void load_rows(const double* table, const std::int32_t* j, Lanes<double>* q) {
-  typedef double Pair __attribute__((vector_size(16)));
+  typedef double Pair __attribute__((vector_size(16), may_alias));
   const double* row[4];
   for (std::size_t k = 0; k < 4; ++k) row[k] = table + static_cast<std::size_t>(j[k]) * stride;
   for (std::size_t a = 0; a < n; a += 2) {
@@ -80,7 +80,7 @@ inline void load_rows(const double* table, const std::int32_t* j, Lanes<double>*
 
 template <std::size_t n, std::size_t stride>
 inline void load_rows(const float* table, const std::int32_t* j, Lanes<float>* q) {
-  typedef float Quad __attribute__((vector_size(16)));
+  typedef float Quad __attribute__((vector_size(16), may_alias));
   const float* row[8];
   for (std::size_t k = 0; k < 8; ++k) row[k] = table + static_cast<std::size_t>(j[k]) * stride;
   for (std::size_t a = 0; a < n; a += 4) {
