@@ -16,6 +16,8 @@ const std::vector<std::pair<std::string, Reconstruction>> k_reconstructions = {
     {"van_leer", Reconstruction::van_leer}};
 const std::vector<std::pair<std::string, RiemannSolver>> k_riemann_solvers = {
     {"linearised", RiemannSolver::linearised}, {"low_dissipation", RiemannSolver::low_dissipation}};
+const std::vector<std::pair<std::string, Tension>> k_tensions = {{"plain", Tension::plain},
+                                                                 {"switched", Tension::switched}};
 const std::vector<std::pair<std::string, GaugeConfig::Kind>> k_gauges = {
     {"point", GaugeConfig::Kind::point}, {"elevation", GaugeConfig::Kind::elevation}};
 const std::vector<std::pair<std::string, Config::InitialDistribution>> k_distributions = {
@@ -45,6 +47,10 @@ void Config::bind(support::Binder& b) {
   b.choice("riemann", riemann, k_riemann_solvers)
       .doc(
           "linearised: eq. (12) of Di Mascio et al. 2021; low_dissipation: damps sound, and vortices, less.");
+  b.choice("tension", tension, k_tensions)
+      .doc(
+          "Pressure force inside the water where p is below the reference pressure. plain: eq. (11) of Di "
+          "Mascio et al. 2021; switched: its part that makes clumps left out (Sun et al. 2018).");
   b.section("shifting", "Keeps the particles evenly spread.", [&] {
     b.key("enabled", shifting).doc("Move particles towards voids, along the surface only where it is near.");
   });
@@ -148,6 +154,7 @@ Numerics<D> numerics_of(const RunConfig& config) {
   numerics.skin = sph.skin * sph.spacing;
   numerics.reconstruction = sph.reconstruction;
   numerics.riemann = sph.riemann;
+  numerics.tension = sph.tension;
   numerics.shifting = sph.shifting;
   numerics.reference_velocity =
       scene.reference_velocity > 0.0 ? scene.reference_velocity : 0.1 * scene.fluid.sound_speed;

@@ -29,6 +29,7 @@ struct Config {
   std::optional<double> kernel_radius;  // [dx]; absent: 4 in 2-D, 2.7 in 3-D
   Reconstruction reconstruction = Reconstruction::unlimited;
   RiemannSolver riemann = RiemannSolver::linearised;
+  Tension tension = Tension::plain;
   bool shifting = true;
   double cfl = 0.375;
   double viscous_cfl = 0.12;

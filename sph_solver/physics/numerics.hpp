@@ -28,6 +28,7 @@ struct Numerics {
   Reconstruction reconstruction = Reconstruction::unlimited;
   RiemannSolver riemann = RiemannSolver::linearised;
   Precision precision = Precision::all_double;
+  Tension tension = Tension::plain;
   bool shifting = true;
   double reference_velocity = 0.0;  // U of (14) [m/s]
   double cfl = 0.375;               // CFL_a of (16)

@@ -15,6 +15,9 @@ enum class Reconstruction : std::uint8_t { first_order, unlimited, minmod, van_l
 ///                    (Zhang, Hu & Adams 2017): sound is damped less than by (12), and so is everything else
 enum class RiemannSolver : std::uint8_t { linearised, low_dissipation };
 
+/// The pressure force where p is below p0: (11) as it stands, or switched (S12).
+enum class Tension : std::uint8_t { plain, switched };
+
 /// Speed that multiplies the jump of velocity in p_E; closing: u_l - u_r. Value: a number or lanes of them.
 template <RiemannSolver solver, class Value, class Number>
 inline auto dissipation_speed(Value closing, Number c) {

@@ -73,6 +73,33 @@ TEST(ShiftingTest, IsProportionalToTheReferenceVelocityAndCappedAtAQuarter) {
   EXPECT_TRUE(capped) << "the cloud is disordered enough for the cap to act somewhere";
 }
 
+/// Splashes: nothing to be spread evenly, so whatever is left alone flies on.
+TEST(ShiftingTest, LoneParticlesAndThinSheetsAreNotShifted) {
+  DomainBox<2> box;
+  box.upper = {40.0, 40.0};
+  const std::vector<std::array<int, 2>> shapes = {{1, 1}, {2, 1}, {2, 2}, {20, 1}, {20, 2}};
+  for (const auto& shape : shapes) {
+    const auto result = shift(test::cloud<2>(shape, 1.0, 0.2), box, 1.0, true);
+    for (std::size_t i = 0; i < result.particles.n_owned; ++i)
+      EXPECT_EQ(length(result.particles, i), 0.0) << shape[0] << " by " << shape[1];
+  }
+}
+
+/// The shift along the surface grows with the distance from it and is whole a kernel radius below.
+TEST(ShiftingTest, FadesTowardsTheSurface) {
+  DomainBox<2> box = periodic();
+  box.sides[1] = {Side::symmetry, Side::open};
+  const auto cloud = test::cloud<2>({16, 16}, 1.0, 0.05);
+  const auto with = shift(cloud, box, 1.0, true), without = shift(cloud, box, 1.0, false);
+  for (std::size_t i = 0; i < with.particles.n_owned; ++i) {
+    const double depth = 16.0 - with.particles.x[1][i];
+    if (depth > 5.0) {
+      EXPECT_EQ(length(with.particles, i), length(without.particles, i));
+    }
+    EXPECT_LE(length(with.particles, i), with.distance[i] * length(without.particles, i) + 1e-12);
+  }
+}
+
 TEST(ShiftingTest, NearASurfaceOnlyAlongItAndNotOnIt) {
   DomainBox<2> box = periodic();
   box.sides[1] = {Side::symmetry, Side::open};

@@ -206,6 +206,23 @@ TEST(SurfaceTest, SheetsOfOneAndTwoRowsAreAllSurface) {
   }
 }
 
+/// A drop a few spacings above the water: what has left is surface whatever its size, and knows which way the
+/// water is not.
+TEST(SurfaceTest, SplashesAboveWaterAreSurface) {
+  for (int rows : {1, 2}) {
+    auto cloud = test::cloud<2>({21, 20}, 1.0, 0.0, [&](const std::array<double, 2>& x) {
+      const bool splash = std::fabs(x[0] - 10.5) < rows && x[1] > 16.0 && x[1] < 16.0 + rows;
+      return x[1] < 12.0 || splash;
+    });
+    const auto found = detect<2>(std::move(cloud), 4.0, open_box<2>(21.0));
+    for (std::size_t i = 0; i < found.particles.n_owned; ++i) {
+      if (found.particles.x[1][i] < 12.0) continue;
+      EXPECT_EQ(found.particles.surface[i], SurfaceFlag::surface);
+      EXPECT_EQ(found.surface.distance()[i], 0.0);
+    }
+  }
+}
+
 TEST(SurfaceTest, ALoneParticleIsSurface) {
   const auto found = detect<3>(test::cloud<3>({1, 1, 1}, 1.0), 2.7, open_box<3>(1.0));
   EXPECT_EQ(found.particles.surface[0], SurfaceFlag::surface);
