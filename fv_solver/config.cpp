@@ -34,6 +34,15 @@ std::vector<std::pair<std::string, int>> faces_or_any() {
   return words;
 }
 
+/// Faces by the block's own directions.
+std::vector<std::pair<std::string, int>> faces_by_direction() {
+  std::vector<std::pair<std::string, int>> words;
+  for (int d = 0; d < 3; ++d)
+    for (int side = 0; side < 2; ++side)
+      words.emplace_back(std::string(1, "ijk"[d]) + (side == 0 ? "_lower" : "_upper"), 2 * d + side);
+  return words;
+}
+
 }  // namespace
 
 void Spacing::bind(Binder& b) {
@@ -99,6 +108,55 @@ void RingConfig::bind(Binder& b) {
   b.check(outer_radius.has_value() != thickness.has_value(), "rings",
           "give outer_radius or thickness, one of them.");
   b.check(!outer_radius || *outer_radius > radius, "rings", "outer_radius is not larger than radius.");
+}
+
+void GridFileConfig::bind(Binder& b) {
+  b.key("name", name).doc("Of the blocks, with their number where there are several.");
+  b.key("file", file)
+      .required()
+      .doc("PLOT3D grid, relative to this file; its dialect is found out and told.");
+  b.key("scale", scale).exclusive_min(0).doc("Metres in a unit of the file.");
+  b.section("span", "Extent along y of a planar file in 3-D.", [&] { span.bind(b); });
+  b.list<Face>(
+      "faces", "Conditions; faces not named here join what they meet. Later ones win.", faces,
+      [](Binder& item, Face& face) {
+        item.key("block", face.block).min(1).doc("Number of the block in the file, from 1.");
+        item.choice("face", face.face, faces_by_direction()).doc("Which face, in the file's own directions.");
+        item.key("from", face.from)
+            .min(0)
+            .doc("First cell along i, j, k; the face's own direction is not used.");
+        item.key("to", face.to).min(-1).doc("One past the last cell; -1: up to the end.");
+        face.condition.bind(item);
+      });
+}
+
+void PlateConfig::bind(Binder& b) {
+  const std::vector<std::string> parts = {"upstream", "downstream", "below", "above"};
+  b.key("name", name).doc("Of the wall, and of the blocks as NAME.below, NAME.above, ...");
+  b.key("centre", centre).unit("m").doc("Middle of the plate.");
+  b.key("chord", chord).unit("m").required().exclusive_min(0).doc("Length of the plate.");
+  b.key("thickness", thickness).unit("m").min(0).doc("0: a sheet.");
+  b.key("angle", angle).unit("degree").doc("Of the chord, and of the whole grid, from x towards z.");
+  for (std::size_t i = 0; i < 4; ++i)
+    b.section(parts[i], "Grid beyond the plate on this side.", [&] {
+      b.key("reach", reach[i]).unit("m").required().exclusive_min(0).doc("From the plate's edge or face.");
+      b.key("cells", cells[i]).required().min(1).doc("In that direction.");
+      b.section("face", "Condition there.", [&] { faces[i].bind(b); });
+    });
+  b.key("along", along).required().min(1).doc("Cells along the chord.");
+  b.key("through", through).min(1).doc("Cells through the thickness.");
+  b.key("first_cell", first_cell)
+      .unit("m")
+      .exclusive_min(0)
+      .doc("Height of the cells at the faces; auto: equal cells.");
+  b.key("edge_cell", edge_cell)
+      .unit("m")
+      .exclusive_min(0)
+      .doc("Length of the cells at the edges, on both sides of each; auto: equal cells.");
+  b.key("width", width).unit("m").exclusive_min(0).doc("Along y, 3-D only; auto: the whole span.");
+  b.key("side_cells", side_cells).min(1).doc("Cells along y on each side of a plate of finite width.");
+  b.section("span", "Extent along y, 3-D only; its cells are those along the plate.", [&] { span.bind(b); });
+  b.section("wall", "Condition on the plate; left out: no slip.", [&] { wall.bind(b); });
 }
 
 void FaceConfig::bind(Binder& b) {
@@ -173,6 +231,10 @@ void FvConfig::bind(Binder& b) {
                       [](Binder& item, BlockConfig& block) { block.bind(item); });
   b.list<RingConfig>("rings", "O-grids around cylinders.", rings,
                      [](Binder& item, RingConfig& ring) { ring.bind(item); });
+  b.list<PlateConfig>("plates", "Blocks around plates.", plates,
+                      [](Binder& item, PlateConfig& plate) { plate.bind(item); });
+  b.list<GridFileConfig>("grid_files", "Blocks from PLOT3D files.", grid_files,
+                         [](Binder& item, GridFileConfig& file) { file.bind(item); });
   b.section("time", "Steps of a run without partner, and bounds on the windows of a coupled one.", [&] {
     b.key("dt", time.dt).unit("s").exclusive_min(0).doc("Time step.");
     b.key("cfl", time.cfl)
@@ -247,7 +309,7 @@ void FvConfig::bind(Binder& b) {
         .doc("Steps between rows of scalars.csv and gauges.csv.");
   });
   if (b.mode() != Binder::Mode::read) return;
-  b.check(!blocks.empty() || !rings.empty(), "blocks", "a grid needs at least one block or ring.");
+  b.check(n_parts() > 0, "blocks", "a grid needs at least one of blocks, rings, plates, grid_files.");
   b.check(!(time.dt && time.cfl), "time.cfl", "given together with time.dt; give one of them.");
   for (const auto& g : gauges)
     b.check(g.kind == GaugeConfig::Kind::point || !g.wall.empty(), "gauges",
@@ -271,7 +333,34 @@ FvConfig FvConfig::from_file(const std::string& path, const std::vector<std::str
   binder.use_constants(scene.constants);
   config.bind(binder);
   binder.finish();
+  for (GridFileConfig& grid : config.grid_files) grid.file = document.resolve(grid.file);
   return config;
+}
+
+std::vector<std::string> FvConfig::face_names() const {
+  std::vector<std::string> names;
+  const auto add = [&](const FaceConfig& face) {
+    if (!face.name.empty()) names.push_back(face.name);
+  };
+  for (const BlockConfig& block : blocks) {
+    for (const FaceConfig& face : block.faces) add(face);
+    for (const PatchConfig& patch : block.patches) add(patch.condition);
+  }
+  for (const RingConfig& ring : rings) {
+    for (const FaceConfig& face : ring.faces) add(face);
+    for (const FaceConfig& face : ring.span.faces) add(face);
+    for (const RingConfig::Patch& patch : ring.patches) add(patch.condition);
+  }
+  for (const PlateConfig& plate : plates) {
+    names.push_back(plate.wall.name.empty() ? plate.name : plate.wall.name);
+    for (const FaceConfig& face : plate.faces) add(face);
+    for (const FaceConfig& face : plate.span.faces) add(face);
+  }
+  for (const GridFileConfig& grid : grid_files) {
+    for (const FaceConfig& face : grid.span.faces) add(face);
+    for (const GridFileConfig::Face& face : grid.faces) add(face.condition);
+  }
+  return names;
 }
 
 std::string FvConfig::resolved() const {

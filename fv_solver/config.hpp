@@ -102,6 +102,44 @@ struct RingConfig {
   void bind(support::Binder& b);
 };
 
+/// Blocks from a PLOT3D file. In a planar scene its plane is (x, z), whatever the file calls it; in space a
+/// planar file is extruded along y.
+struct GridFileConfig {
+  struct Face {                                              // a face, or a part of it
+    int block = 1;                                           // number in the file, from 1
+    int face = 0;                                            // 2 * direction + side
+    std::array<int, 3> from = {0, 0, 0}, to = {-1, -1, -1};  // cells along i, j, k; to -1: the last
+    FaceConfig condition;
+  };
+  std::string name = "grid";
+  std::string file;
+  double scale = 1.0;  // [-] to metres
+  SpanConfig span;
+  std::vector<Face> faces;
+  void bind(support::Binder& b);
+};
+
+/// Blocks around a plate, its chord along x before it is turned: below and above it over the whole length,
+/// and, where it has a thickness, before and behind it.
+struct PlateConfig {
+  enum Face : int { upstream, downstream, below, above };
+  std::string name = "plate";
+  std::array<double, 3> centre = {0, 0, 0};    // [m]
+  double chord = 0.0, thickness = 0.0;         // [m]
+  double angle = 0.0;                          // [degree] of the chord, from x towards z
+  std::array<double, 4> reach = {0, 0, 0, 0};  // [m] of the grid, from the plate's edges and faces
+  std::array<int, 4> cells = {1, 1, 1, 1};     // of these parts
+  int along = 1, through = 1;                  // cells along the chord and through the thickness
+  std::optional<double> first_cell;            // [m] at the faces
+  std::optional<double> edge_cell;             // [m] along the chord and the span, at the edges
+  std::optional<double> width;                 // [m] 3-D: of the plate; left out: the whole span
+  int side_cells = 1;                          // 3-D: beside a plate of finite width, on each side
+  SpanConfig span;                             // cells: along the plate
+  FaceConfig wall;
+  std::array<FaceConfig, 4> faces;
+  void bind(support::Binder& b);
+};
+
 struct GaugeConfig {
   enum class Kind : std::uint8_t { point, force, y_plus };
   std::string name;
@@ -118,6 +156,11 @@ struct FvConfig {
   Joins joins = Joins::automatic;
   std::vector<BlockConfig> blocks;
   std::vector<RingConfig> rings;
+  std::vector<PlateConfig> plates;
+  std::vector<GridFileConfig> grid_files;
+  std::size_t n_parts() const { return blocks.size() + rings.size() + plates.size() + grid_files.size(); }
+  /// Names the user gave to faces.
+  std::vector<std::string> face_names() const;
 
   struct Time {
     std::optional<double> dt;   // [s] alone, or an upper bound in a coupled run

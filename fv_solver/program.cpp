@@ -8,6 +8,7 @@
 #include "companion.hpp"
 #include "coupling/carve.hpp"
 #include "coupling/coupled.hpp"
+#include "grid/grid_file.hpp"
 #include "io/gauges.hpp"
 #include "littoral/error.hpp"
 #include "littoral/support/options.hpp"
@@ -65,8 +66,10 @@ void run_scene(coupler::Job& job, const ProgramOptions& options, const FvConfig&
 }  // namespace
 
 int run(coupler::Job& job, int argc, char** argv) {
-  const support::ParsedOptions parsed =
-      support::parse_options(argc, argv, "fv_solver", k_version, "Finite volumes on structured blocks.");
+  std::string grid_path;
+  const support::ParsedOptions parsed = support::parse_options(
+      argc, argv, "fv_solver", k_version, "Finite volumes on structured blocks.",
+      {{"--write-grid", "write the grid as PLOT3D into this file and stop", &grid_path}});
   const bool speaks = job.rank() == 0;
   if (parsed.exit_status) {
     if (speaks) std::fputs(parsed.text.c_str(), *parsed.exit_status == 0 ? stdout : stderr);
@@ -86,6 +89,13 @@ int run(coupler::Job& job, int argc, char** argv) {
       FvConfig::from_file(options.config, options.settings, options.scene_settings, scene);
   if (options.print_config) {
     if (speaks) std::printf("# scene\n%s# fv\n%s", scene.resolved().c_str(), config.resolved().c_str());
+    return 0;
+  }
+  if (!grid_path.empty()) {
+    if (scene.dimension == 2)
+      write_grid<2>(grid_path, build_grid<2>(config, scene).blocks);
+    else
+      write_grid<3>(grid_path, build_grid<3>(config, scene).blocks);
     return 0;
   }
   need_step(options, config, scene);

@@ -6,6 +6,9 @@
 #include "dual_time/plain.hpp"
 #include "grid/box.hpp"
 #include "grid/find_joins.hpp"
+#include "grid/grid_file.hpp"
+#include "grid/plate.hpp"
+#include "grid/quality.hpp"
 #include "grid/ring.hpp"
 #include "grid/space.hpp"
 #include "implicit/multigrid_solver.hpp"
@@ -60,19 +63,30 @@ Grid<D> build_grid(const FvConfig& config, const support::Scene& scene) {
   std::string problems;
   Neighbourhood others;
   others.automatic = config.joins == FvConfig::Joins::automatic;
-  others.alone = config.blocks.size() + config.rings.size() == 1;
-  const auto add = [&](auto&& build) {
+  others.alone = config.n_parts() == 1;
+  const auto attempt = [&](auto&& build) {
     try {
-      grid.blocks.push_back(build());
-      check_windows(grid.blocks.back());
+      for (Block<D>& block : build()) {
+        check_windows(block);
+        grid.blocks.push_back(std::move(block));
+      }
     } catch (const ConfigError& problem) {
       problems += (problems.empty() ? "" : "\n") + std::string(problem.what());
     }
   };
-  for (const BlockConfig& block : config.blocks) add([&] { return build_block<D>(block, scene, others); });
-  for (const RingConfig& ring : config.rings) add([&] { return build_ring<D>(ring, scene, others); });
+  using Blocks = std::vector<Block<D>>;
+  for (const BlockConfig& block : config.blocks)
+    attempt([&] { return Blocks{build_block<D>(block, scene, others)}; });
+  for (const RingConfig& ring : config.rings)
+    attempt([&] { return Blocks{build_ring<D>(ring, scene, others)}; });
+  for (const PlateConfig& plate : config.plates)
+    attempt([&] { return build_plate<D>(plate, scene, others); });
+  for (const GridFileConfig& file : config.grid_files)
+    attempt([&] { return build_grid_file<D>(file, scene, others, grid.notes); });
   if (!problems.empty()) throw ConfigError(problems);
-  grid.joins = find_joins(grid.blocks);
+  const std::vector<std::string> joins = find_joins(grid.blocks), quality = quality_report(grid.blocks);
+  grid.notes.insert(grid.notes.end(), joins.begin(), joins.end());
+  grid.notes.insert(grid.notes.end(), quality.begin(), quality.end());
   check_gravity<D>(grid.blocks, scene);
   return grid;
 }
@@ -81,7 +95,7 @@ template <int D>
 Stepper<D> make_stepper(const FvConfig& config, const support::Scene& scene,
                         std::vector<std::string>* notes) {
   Grid<D> grid = build_grid<D>(config, scene);
-  if (notes != nullptr) *notes = grid.joins;
+  if (notes != nullptr) *notes = grid.notes;
   Equations<D> equations;
   equations.fluid = fluid_of<D>(scene);
   equations.limiter = config.limiter;

@@ -11,7 +11,7 @@ namespace littoral::fv {
 template <int D>
 struct Grid {
   std::vector<Block<D>> blocks;
-  std::vector<std::string> joins;  // one line a join found, for the log
+  std::vector<std::string> notes;  // for the log: files' dialects, joins found, quality of the blocks
 };
 
 /// The blocks of a configuration with their windows, joined. throws ConfigError with the problems of all
@@ -20,7 +20,7 @@ template <int D>
 Grid<D> build_grid(const FvConfig& config, const support::Scene& scene);
 
 /// The discrete problem of a configuration: blocks, fluid, wave speeds, inner solver, sources, initial state.
-/// notes: gets what the user should know of the grid (joins found); may be null. throws ConfigError
+/// notes: gets what the user should know of the grid; may be null. throws ConfigError
 template <int D>
 Stepper<D> make_stepper(const FvConfig& config, const support::Scene& scene,
                         std::vector<std::string>* notes = nullptr);

@@ -19,15 +19,8 @@ const char* const k_axes[] = {"x", "y", "z"};
 /// Names the user gave to walls: those worth a column.
 template <int D>
 std::vector<std::string> named_walls(const FvConfig& config, const std::vector<Block<D>>& blocks) {
-  std::vector<std::string> given, walls;
-  for (const BlockConfig& block : config.blocks) {
-    for (const FaceConfig& face : block.faces) given.push_back(face.name);
-    for (const PatchConfig& patch : block.patches) given.push_back(patch.condition.name);
-  }
-  for (const RingConfig& ring : config.rings) {
-    for (const FaceConfig& face : ring.faces) given.push_back(face.name);
-    for (const RingConfig::Patch& patch : ring.patches) given.push_back(patch.condition.name);
-  }
+  const std::vector<std::string> given = config.face_names();
+  std::vector<std::string> walls;
   for (const Block<D>& block : blocks)
     for (const Window<D>& w : block.windows) {
       const bool solid = w.condition == Condition::wall || w.condition == Condition::slip;

@@ -6,7 +6,8 @@
 namespace littoral::support {
 
 ParsedOptions parse_options(int argc, const char* const* argv, const std::string& program,
-                            const std::string& version, const std::string& description) {
+                            const std::string& version, const std::string& description,
+                            const std::vector<OwnOption>& own) {
   ParsedOptions parsed;
   ProgramOptions& o = parsed.options;
   std::vector<std::string> settings;
@@ -27,6 +28,7 @@ ParsedOptions parse_options(int argc, const char* const* argv, const std::string
   app.add_option("--restart", o.restart, "checkpoint to continue from");
   auto* record = app.add_option("--record", o.record, "record all that the partner says in this file");
   app.add_option("--replay", o.replay, "let this record speak in the partner's place")->excludes(record);
+  for (const OwnOption& option : own) app.add_option(option.name, *option.value, option.doc);
   app.get_formatter()->column_width(28);
 
   const auto refuse = [&](const std::string& problem) {

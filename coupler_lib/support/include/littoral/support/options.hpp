@@ -27,9 +27,17 @@ struct ParsedOptions {
   std::string text;
 };
 
+/// An option that one program has besides: --name TEXT.
+struct OwnOption {
+  std::string name;  // with its dashes
+  std::string doc;
+  std::string* value;
+};
+
 /// Reads the command line; prints nothing and does not exit, so that in a job of many ranks one can speak for
 /// all.
 ParsedOptions parse_options(int argc, const char* const* argv, const std::string& program,
-                            const std::string& version, const std::string& description);
+                            const std::string& version, const std::string& description,
+                            const std::vector<OwnOption>& own = {});
 
 }  // namespace littoral::support
