@@ -5,7 +5,7 @@ import sys
 
 from .errors import UserError, nearest
 
-COMMANDS = ("run", "check", "plot", "verify", "bench")
+COMMANDS = ("run", "check", "plot", "surface", "verify", "bench")
 
 
 class Parser(argparse.ArgumentParser):
@@ -73,6 +73,16 @@ def build_parser():
     plot.add_argument("--time", type=float, help="moment of the field picture [s] (default: the most lively one)")
     plot.add_argument("--out", help="folder of the pictures (default: DIR/plots)")
 
+    surface = sub.add_parser("surface", help="the free surface as triangles or lines",
+                             description="Find the free surface of a run's particles, where sum V W = 1/2, and write "
+                             "it as triangles (VTP, PLY, STL), in 2-D as lines (VTP), with a picture.")
+    surface.add_argument("dir", metavar="DIR", help="folder a run wrote")
+    surface.add_argument("--time", type=float, help="moment [s], the nearest field written (default: the last)")
+    surface.add_argument("--all", action="store_true", help="every field written, one file each")
+    surface.add_argument("--step", type=float, default=0.5, metavar="DX", help="grid step in spacings (default 0.5)")
+    surface.add_argument("--no-picture", action="store_true", help="files only")
+    surface.add_argument("--out", help="folder of the files (default: DIR/surface)")
+
     verify = sub.add_parser("verify", help="run validation cases", description="Run cases of tests/validation and "
                             "print metric, gate and verdict of each. Exit status 0 only if no gate was missed.")
     verify.add_argument("names", nargs="*", metavar="NAME", help="cases by name or id (default: all of the selection)")
@@ -111,6 +121,8 @@ def main(argv):
             from . import checking as module
         elif args.command == "plot":
             from . import plotting as module
+        elif args.command == "surface":
+            from . import surface as module
         elif args.command == "verify":
             from . import verify as module
         else:

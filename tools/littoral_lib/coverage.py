@@ -19,21 +19,23 @@ def kernel(r, radius, dimension):
     return norm * (1 - s) ** 4 * (1 + 4 * s)
 
 
-def plane(points, volume, radius, step):
-    """Of the particles (n, 2)."""
-    return _on_grid(np.asarray(points), np.asarray(volume), radius, step)
+def plane(points, volume, radius, step, anchor=None):
+    """Of the particles (n, 2); grid points lie whole steps from the anchor."""
+    return _on_grid(np.asarray(points), np.asarray(volume), radius, step, anchor)
 
 
-def space(points, volume, radius, step):
-    """Of the particles (n, 3)."""
-    return _on_grid(np.asarray(points), np.asarray(volume), radius, step)
+def space(points, volume, radius, step, anchor=None):
+    """Of the particles (n, 3); as plane()."""
+    return _on_grid(np.asarray(points), np.asarray(volume), radius, step, anchor)
 
 
-def _on_grid(points, volume, radius, step):
+def _on_grid(points, volume, radius, step, anchor):
     """Adds each particle to the grid points within its kernel: one pass for every offset from its own point."""
     dimension = points.shape[1]
     margin = MARGIN * radius
     origin = points.min(axis=0) - margin
+    if anchor is not None:
+        origin = anchor + step * np.floor((origin - anchor) / step)
     shape = np.ceil((points.max(axis=0) + margin - origin) / step).astype(int) + 1
     values = np.zeros(shape)
     home = np.rint((points - origin) / step).astype(int)

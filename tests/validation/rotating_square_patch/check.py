@@ -26,4 +26,10 @@ def check(case):
         case.metric(f"L/dx={n}: area", area, below=0.01)
         case.metric(f"L/dx={n}: angular momentum", angular, below=0.005)
         case.metric(f"L/dx={n}: holes", hole_count, at_most=0)
+    # under tension for long, with nothing else that keeps particles apart: neither shifting nor the dissipation of (12)
+    for tension in ("plain", "switched"):
+        run = case.run(case.folder / "scene", set=["scene.time.end=3", "sph.riemann=low_dissipation",
+                       "sph.shifting.enabled=false", f"sph.tension={tension}"], name=tension, solver="sph")
+        most = max(len(water.holes(s, SIDE / 50, 4 * SIDE / 50)) for s in run.sph.snapshots)
+        case.metric(f"w t <= 3, bare, tension {tension}: most holes", most, **({"at_most": 0} if tension == "switched" else {}))
     case.table("Rotating square patch", ["L/dx", "p(centre)", "area", "angular momentum", "holes", "wall s"], rows)
