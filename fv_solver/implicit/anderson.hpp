@@ -1,31 +1,36 @@
 #pragma once
 
 #include <cstddef>
-#include <deque>
 #include <vector>
 
 namespace littoral::fv {
 
 /// Anderson mixing of a preconditioned fixed-point iteration q <- q + d, where d = M^-1 (-r(q)): the new
 /// iterate is the combination of the last `depth` + 1 ones whose combined residual is smallest in the
-/// weighted norm sum_i w_i r_i^2. Depth 0 is the plain iteration.
+/// weighted norm sum_i w_i r_i^2. Depth 0 is the plain iteration. The past is kept in float, as differences:
+/// they are large beside what is still to be corrected.
 class Anderson {
  public:
-  Anderson(int depth, std::vector<double> weights) : depth_(depth), weights_(std::move(weights)) {}
+  static constexpr int k_max_depth = 2;
 
-  /// The change to apply to q, from q's own correction `d` and residual `r`, all of one length.
-  /// in    q present unknowns, r residual there, d the preconditioned correction
+  /// throws std::invalid_argument where the depth is not 0, 1 or 2
+  Anderson(int depth, std::vector<double> weights);
+
+  /// The change to apply to q, from the residual `r` at q and its own correction `d`. The caller applies all
+  /// of it before it comes again. in    r residual at the present unknowns, d the preconditioned correction
   /// out   d the change towards the next iterate
-  void mix(const std::vector<double>& q, const std::vector<double>& r, std::vector<double>& d);
-  void forget() { history_.clear(); }
+  /// comm local; OpenMP inside
+  void mix(const std::vector<double>& r, std::vector<double>& d);
+  void forget() { known_ = 0; }
 
  private:
-  struct Entry {
-    std::vector<double> q, r, d;
+  struct Entry {  // an iterate: its residual and correction, and the way from it to the present one
+    std::vector<float> r, d, way;
   };
   int depth_;
-  std::vector<double> weights_;
-  std::deque<Entry> history_;  // newest first
+  std::vector<float> weights_;
+  Entry entry_[k_max_depth];
+  int newest_ = 0, known_ = 0;
 };
 
 }  // namespace littoral::fv

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "implicit/lanes.hpp"
 #include "implicit/level_grid.hpp"
 #include "physics/equations.hpp"
 
@@ -19,14 +20,18 @@ struct CorrectionPhysics {
   double forcing_psi = 0.0;  // [s^2/m^2] d rho/d p in the mass row's forcing
 };
 
-template <int D>
-using SmallMatrix = std::array<std::array<double, D + 1>, D + 1>;
+/// T: a number, or one in each lane.
+template <int D, class T = double>
+struct SmallMatrix {
+  T entry[D + 1][D + 1] = {};
+  T* operator[](std::size_t i) { return entry[i]; }
+  const T* operator[](std::size_t i) const { return entry[i]; }
+};
 
-/// The state a face sees on one side.
-template <int D>
+/// The velocity a face sees on one side.
+template <int D, class T = double>
 struct FaceState {
-  double p = 0.0;           // [Pa]
-  std::array<double, D> u;  // [m/s]
+  std::array<T, D> u{};  // [m/s]
 };
 
 /// Derivatives of the first-order flux through a face by the states on its two sides, scaled:
@@ -35,34 +40,37 @@ struct FaceState {
 ///   m = rho [ (u_L + u_R).S / 2 - S (p_R - p_L) / (2 rho c_p) ]
 ///   F = m u_upwind + S (p_L + p_R)/2 - S rho c0 (u_R - u_L).n / 2 - rho nu S^2/V_f (u_R - u_L)
 /// in    area S [m^(D-1)], pointing from left to right; volume V_f of the face's cell [m^D]
-template <int D>
-inline void face_jacobian(const std::array<double, D>& area, double volume, const FaceState<D>& left,
-                          const FaceState<D>& right, const CorrectionPhysics<D>& physics,
-                          SmallMatrix<D>& by_left, SmallMatrix<D>& by_right) {
-  double s2 = 0.0, flow = 0.0;
+template <int D, class T, class Area>
+inline void face_jacobian(const Area& area, const T& volume, const FaceState<D, T>& left,
+                          const FaceState<D, T>& right, const CorrectionPhysics<D>& physics,
+                          SmallMatrix<D, T>& by_left, SmallMatrix<D, T>& by_right) {
+  T s2{}, flow{};
   for (std::size_t k = 0; k < D; ++k) {
     s2 += area[k] * area[k];
     flow += 0.5 * (left.u[k] + right.u[k]) * area[k];
   }
-  if (s2 <= 0.0) {  // a face collapsed to an axis passes nothing
-    by_left = by_right = SmallMatrix<D>{};
-    return;
-  }
-  const double s = std::sqrt(s2);
+  // a face collapsed to an axis passes nothing: all terms but the first carry its area
+  constexpr double k_no_area = 1e-300;
+  s2 = s2 > k_no_area ? s2 : k_no_area + T{};
+  const T s = square_root(s2);
   const double c0 = physics.speeds.c0;
   const double density_by_p = c0 * physics.fluid.inverse_c2;  // d(rho/rho0)/dP
-  const double pressure_term = 0.5 * c0 * s / physics.speeds.mass(volume / s, physics.time.dt);
-  const auto& upwind = flow >= 0.0 ? left.u : right.u;
+  const T h = volume / s;
+  const T pressure_term = 0.5 * c0 * s / physics.speeds.mass(h, physics.time.dt);
+  const T zero{};
+  const T out = flow > 0.0 ? flow : zero, in = flow > 0.0 ? zero : flow;
 
   // dm/rho0 by the scaled unknowns
-  std::array<double, D + 1> m_left, m_right;
-  m_left[0] = pressure_term + density_by_p * std::max(flow, 0.0);
-  m_right[0] = -pressure_term + density_by_p * std::min(flow, 0.0);
+  T m_left[D + 1], m_right[D + 1], upwind[D];
+  for (std::size_t k = 0; k < D; ++k) upwind[k] = flow >= 0.0 ? left.u[k] : right.u[k];
+  m_left[0] = pressure_term + density_by_p * out;
+  m_right[0] = density_by_p * in - pressure_term;
   for (std::size_t k = 0; k < D; ++k) m_left[k + 1] = m_right[k + 1] = 0.5 * area[k];
 
-  const double friction = physics.fluid.viscosity > 0.0 ? physics.fluid.viscosity * s2 / volume : 0.0;
-  const double carry_left = std::max(flow, 0.0) + friction;
-  const double carry_right = std::min(flow, 0.0) - friction;
+  const T friction = physics.fluid.viscosity * s2 / volume;
+  const T carry_left = out + friction;
+  const T carry_right = in - friction;
+  const T acoustic_per_s = 0.5 * c0 / s;
   for (std::size_t j = 0; j <= D; ++j) {
     by_left[0][j] = c0 * m_left[j];
     by_right[0][j] = c0 * m_right[j];
@@ -77,7 +85,7 @@ inline void face_jacobian(const std::array<double, D>& area, double volume, cons
     by_left[i + 1][i + 1] += carry_left;
     by_right[i + 1][i + 1] += carry_right;
     for (std::size_t j = 0; j < D; ++j) {
-      const double acoustic = 0.5 * c0 * area[i] * area[j] / s;
+      const T acoustic = acoustic_per_s * area[i] * area[j];
       by_left[i + 1][j + 1] += acoustic;
       by_right[i + 1][j + 1] -= acoustic;
     }
@@ -86,10 +94,10 @@ inline void face_jacobian(const std::array<double, D>& area, double volume, cons
 
 /// Physical-time term, gravity on the density's correction, and the forcing K/delta (21): the cell's own
 /// block.
-template <int D>
-inline void add_cell_jacobian(double volume, double forcing, const FaceState<D>& state,
-                              const CorrectionPhysics<D>& physics, SmallMatrix<D>& block) {
-  const double rate = volume * (physics.time.a0 + forcing);
+template <int D, class T>
+inline void add_cell_jacobian(const T& volume, const T& forcing, const FaceState<D, T>& state,
+                              const CorrectionPhysics<D>& physics, SmallMatrix<D, T>& block) {
+  const T rate = volume * (physics.time.a0 + forcing);
   const double c0 = physics.speeds.c0;
   const double density_by_p = c0 * physics.fluid.inverse_c2;
   block[0][0] += volume * c0 * (physics.time.a0 * density_by_p + forcing * c0 * physics.forcing_psi);
@@ -161,7 +169,7 @@ inline SmallMatrix<D> boundary_jacobian(EdgeCondition condition, const std::arra
       // linear from the cell through the known value: the ghost's correction is `image` times the cell's
       const double image = -(1.0 - imposed_distance) / (1.0 + imposed_distance);
       SmallMatrix<D> by_ghost;
-      face_jacobian<D>(area, volume, inside, inside, physics, block, by_ghost);
+      face_jacobian<D, double>(area, volume, inside, inside, physics, block, by_ghost);
       for (std::size_t i = 0; i <= D; ++i)
         for (std::size_t j = 0; j <= D; ++j) block[i][j] += image * by_ghost[i][j];
       break;

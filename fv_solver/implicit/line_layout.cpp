@@ -49,23 +49,39 @@ LineLayout line_layout(const LevelGrid<D>& grid, int direction) {
   const int n_colours = *std::max_element(colour.begin(), colour.end()) + 1;
   std::array<int, D> plane = grid.extent.n;
   plane[dir] = 1;
+  // Bundles that keep to a row of cells are loaded fast; lanes left over at the row's end cost less than that
+  // where they are few.
+  const auto row_of = [](std::array<int, D> index) {
+    index[0] = 0;
+    return index;
+  };
+  const int in_row = (plane[0] + 1) / 2;
+  const bool rows_apart = direction != 0 && (in_row + k_lanes - 1) / k_lanes * k_lanes <= in_row + in_row / 4;
   for (int c = 0; c < n_colours; ++c) {
     const std::size_t begin = layout.bundles.size();
+    std::array<int, D> c_row = row_of({});
     Extent<D> lines(plane);
     lines.stride = grid.extent.stride;
     lines.origin = grid.extent.origin;
     for_each_cell<D>(lines, [&](const auto& index, std::ptrdiff_t) {
       if (colour[grid.face_index(direction, index)] != c) return;
-      if (layout.bundles.size() == begin || layout.bundles.back().n_lines == k_lanes)
+      const bool new_row = rows_apart && !(c_row == row_of(index));
+      if (layout.bundles.size() == begin || layout.bundles.back().n_lines == k_lanes || new_row)
         layout.bundles.emplace_back();
+      c_row = row_of(index);
       auto& bundle = layout.bundles.back();
       bundle.first[static_cast<std::size_t>(bundle.n_lines++)] = grid.extent.at(index);
     });
     layout.colour_end.push_back(layout.bundles.size());
   }
-  for (auto& bundle : layout.bundles)
+  for (auto& bundle : layout.bundles) {
     for (int l = bundle.n_lines; l < k_lanes; ++l)
       bundle.first[static_cast<std::size_t>(l)] = bundle.first[static_cast<std::size_t>(bundle.n_lines - 1)];
+    const std::ptrdiff_t step = bundle.first[1] - bundle.first[0];
+    bool even = step == 1 || step == 2;
+    for (std::size_t l = 1; l < k_lanes; ++l) even = even && bundle.first[l] - bundle.first[l - 1] == step;
+    if (even) bundle.spacing = step == 1 ? Spacing::one : Spacing::two;
+  }
   return layout;
 }
 

@@ -4,12 +4,10 @@
 #include <cstddef>
 #include <vector>
 
+#include "implicit/lanes.hpp"
 #include "implicit/level_grid.hpp"
 
 namespace littoral::fv {
-
-/// Lines solved together, one per vector lane: float fills a 256-bit register.
-inline constexpr int k_lanes = 8;
 
 /// All grid lines of one direction, coloured so that no two neighbours share a colour (zebra; a periodic
 /// direction with an odd count needs a third), each colour's lines bundled by k_lanes.
@@ -22,6 +20,7 @@ struct LineLayout {
     std::array<std::ptrdiff_t, k_lanes>
         first{};  // offset of each line's first cell; spare lanes repeat the last
     int n_lines = 0;
+    Spacing spacing = Spacing::any;  // of `first`
   };
   std::vector<Bundle> bundles;          // colour by colour
   std::vector<std::size_t> colour_end;  // bundles of colour i: [colour_end[i-1], colour_end[i])

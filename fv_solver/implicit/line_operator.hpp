@@ -36,15 +36,25 @@ class LineOperator {
 
   /// r = b - A e on the interior; link ghosts of e current
   void residual(const Correction<D, Real>& b, const Correction<D, Real>& e, Correction<D, Real>& r) const;
+  /// The same after one sweep in order from e = 0, with nothing linked to other blocks: the lines solved last
+  /// have no residual, those before only what the later ones changed. For two colours.
+  void residual_after_sweep(const Correction<D, Real>& e, Correction<D, Real>& r) const;
 
-  /// Solves the lines of one colour exactly, neighbours frozen.
-  void smooth(int colour, const Correction<D, Real>& b, Correction<D, Real>& e) const;
+  /// Solves the lines of one colour exactly, neighbours frozen. from_zero: all of e is still 0
+  void smooth(int colour, const Correction<D, Real>& b, Correction<D, Real>& e, bool from_zero = false) const;
 
  private:
-  static constexpr int k_blocks = 1 + 2 * D;  // cell, then lower and upper neighbour of each direction
-  using Lanes = std::array<Real, k_lanes>;
-  using Block = std::array<std::array<Lanes, N>, N>;
-  using Column = std::array<Lanes, N>;
+  static constexpr int k_cross = 2 * (D - 1);  // neighbours across the lines
+  using Matrix = SmallMatrix<D, Lanes<Real>>;
+  using Wide = SmallMatrix<D, Lanes<double>>;
+  struct Column {
+    Lanes<Real> x[N];
+  };
+  /// What a forward elimination reads of one cell, together.
+  struct Forward {
+    Matrix cross[k_cross], lower, inverse;
+  };
+  struct Line;  // while building
 
   /// Coarse levels are too small to wake threads for.
   bool worth_threads(std::size_t bundles) const {
@@ -53,17 +63,26 @@ class LineOperator {
   std::size_t slot(std::size_t bundle, int k) const {
     return bundle * static_cast<std::size_t>(layout_.length) + static_cast<std::size_t>(k);
   }
-  void assemble_cell(const LevelGrid<D>& grid, const State<D>& state, const CorrectionPhysics<D>& physics,
-                     double anchor, const std::array<int, D>& index,
-                     std::array<SmallMatrix<D>, k_blocks>& blocks) const;
-  void factorise(std::size_t bundle, const std::vector<std::array<SmallMatrix<D>, k_blocks>>& blocks,
-                 int lane);
+  template <Spacing S>
+  void build_bundle(const LevelGrid<D>& grid, const State<D>& state, const CorrectionPhysics<D>& physics,
+                    double anchor, std::size_t bundle, Line& line);
+  void eliminate(std::size_t bundle, int k, Line& line);
+  void close(std::size_t bundle, Line& line);
+  template <Spacing S>
+  void residual_bundle(std::size_t bundle, const Correction<D, Real>& b, const Correction<D, Real>& e,
+                       Correction<D, Real>& r) const;
+  template <Spacing S>
+  void cross_residual_bundle(std::size_t bundle, const Correction<D, Real>& e, Correction<D, Real>& r) const;
+  template <Spacing S, bool FromZero>
+  void smooth_bundle(std::size_t bundle, const Correction<D, Real>& b, Correction<D, Real>& e,
+                     Column* y) const;
 
   LineLayout layout_;
-  std::array<std::ptrdiff_t, D> stride_{};
-  std::vector<std::array<Block, k_blocks>> blocks_;  // (bundles * length)
-  std::vector<Block> inverse_;                       // of the diagonal after elimination along the line
-  std::vector<Block> closing_;                       // cyclic lines: response to the last cell
+  std::array<std::ptrdiff_t, k_cross> cross_shift_{};  // to the neighbours across
+  std::vector<Forward> forward_;                       // (bundles * length)
+  std::vector<Matrix> back_;                           // inverse times upper block
+  std::vector<Matrix> diagonal_, upper_;               // for residuals
+  std::vector<Matrix> closing_;                        // cyclic lines: response to the last cell
 };
 
 }  // namespace littoral::fv

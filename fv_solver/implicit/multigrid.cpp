@@ -165,7 +165,7 @@ void Multigrid<D, Real>::fill_for_transfer(Level& level, FieldOf&& field_of) {
 }
 
 template <int D, class Real>
-void Multigrid<D, Real>::sweep(Level& level, bool forward) {
+void Multigrid<D, Real>::sweep(Level& level, bool forward, bool from_zero) {
   std::size_t steps = 0;  // colours of all directions, in turn
   for (const auto& block : level.blocks) {
     std::size_t colours = 0;
@@ -178,7 +178,7 @@ void Multigrid<D, Real>::sweep(Level& level, bool forward) {
       for (const auto& op : block.operators) {
         const auto n = static_cast<std::size_t>(op.layout().n_colours());
         if (rest < n) {
-          op.smooth(static_cast<int>(rest), block.b, block.e);
+          op.smooth(static_cast<int>(rest), block.b, block.e, from_zero && step == 0);
           break;
         }
         rest -= n;
@@ -215,9 +215,16 @@ void Multigrid<D, Real>::descend(std::size_t l, bool fresh) {
     }
     return;
   }
-  for (int s = 0; s < options_.pre_sweeps; ++s) sweep(level, true);
+  for (int s = 0; s < options_.pre_sweeps; ++s) sweep(level, true, fresh && s == 0);
   Level& next = *levels_[l + 1];
-  for (auto& block : level.blocks) block.operators[0].residual(block.b, block.e, block.r);
+  for (auto& block : level.blocks) {
+    const LineOperator<D, Real>& op = block.operators[0];
+    const bool alone = level.blocks.size() == 1 && level.joins.empty() && block.operators.size() == 1;
+    if (alone && fresh && options_.pre_sweeps == 1 && op.layout().n_colours() == 2)
+      op.residual_after_sweep(block.e, block.r);
+    else
+      op.residual(block.b, block.e, block.r);
+  }
   fill_for_transfer(level, [](BlockLevel& block) -> Correction<D, Real>& { return block.r; });
   for (std::size_t i = 0; i < level.blocks.size(); ++i)
     level.blocks[i].transfer->restrict_residual(level.blocks[i].r, next.blocks[i].b);

@@ -52,7 +52,8 @@ class Multigrid {
  private:
   struct BlockLevel;
   struct Level;
-  void sweep(Level& level, bool forward);
+  /// from_zero: all of the correction is still 0
+  void sweep(Level& level, bool forward, bool from_zero = false);
   /// The correction's ghosts of one level, from periodic images and other blocks: all that crosses between
   /// blocks inside the cycle.
   void exchange(Level& level);

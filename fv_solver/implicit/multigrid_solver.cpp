@@ -6,6 +6,7 @@
 
 #include "grid/loops.hpp"
 #include "implicit/anderson.hpp"
+#include "implicit/ordered_sum.hpp"
 #include "littoral/error.hpp"
 
 namespace littoral::fv {
@@ -66,11 +67,12 @@ struct MultigridSolver<D>::Levels {
   Multigrid<D, float> multigrid;
   std::vector<Residual<D>> rows;
   std::vector<double> weights;  // 1/V for each unknown
-  std::vector<double> q, r, d;  // scaled, flat: cells of block 0, then of block 1, ...; D+1 values a cell
+  Anderson anderson;
+  std::vector<double> r, d;  // scaled, flat: cells of block 0, then of block 1, ...; D+1 values a cell
   double total_volume = 0.0;
 
-  Levels(const std::vector<Block<D>>& blocks, const MultigridOptions& options)
-      : grids(all_grids(blocks)), multigrid(grids, options, join_sides(blocks)) {
+  Levels(const std::vector<Block<D>>& blocks, const MultigridSolverOptions& options)
+      : grids(all_grids(blocks)), multigrid(grids, options.multigrid, join_sides(blocks)), anderson(0, {}) {
     for (const LevelGrid<D>& grid : grids) {
       cells.emplace_back();
       for_each_cell<D>(grid.extent, [&](const auto&, std::ptrdiff_t c) {
@@ -80,7 +82,8 @@ struct MultigridSolver<D>::Levels {
         weights.insert(weights.end(), D + 1, 1.0 / grid.volume[static_cast<std::size_t>(c)]);
       });
     }
-    for (auto* field : {&q, &r, &d}) field->resize(weights.size());
+    for (auto* field : {&r, &d}) field->resize(weights.size());
+    anderson = Anderson(options.anderson_depth, weights);
     rows.resize(blocks.size());
   }
 
@@ -97,50 +100,57 @@ struct MultigridSolver<D>::Levels {
     return true;
   }
 
-  /// Unknowns and residual, scaled as face_jacobian has them; the right side of the correction is -r.
-  void collect(const std::vector<State<D>>& state, const CorrectionPhysics<D>& physics) {
-    const double per_p = 1.0 / (physics.fluid.density * physics.speeds.c0);
-    const double per_mass = physics.speeds.c0 / physics.fluid.density;
-    const double per_momentum = 1.0 / physics.fluid.density;
-    std::size_t at = 0;
+  /// body(block, offset of the cell, place of its first value in the flat arrays) for every solved cell.
+  template <class Body>
+  void for_each_solved(Body&& body) const {
+    std::size_t begin = 0;
     for (std::size_t b = 0; b < cells.size(); ++b) {
-      auto& right = multigrid.right_side(b);
-      for (const std::ptrdiff_t cell : cells[b]) {
-        const auto c = static_cast<std::size_t>(cell);
-        for (std::size_t i = 0; i <= D; ++i, ++at) {
-          q[at] = i == 0 ? per_p * state[b].p[c] : state[b].u[i - 1][c];
-          r[at] = i == 0 ? per_mass * rows[b].mass[c] : per_momentum * rows[b].momentum[i - 1][c];
-          right.q[i][c] = static_cast<float>(-r[at]);
-        }
+      const auto n = static_cast<std::ptrdiff_t>(cells[b].size());
+#pragma omp parallel for schedule(static) if (n > k_worth_threads)
+      for (std::ptrdiff_t i = 0; i < n; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        body(b, static_cast<std::size_t>(cells[b][k]), begin + k * (D + 1));
       }
+      begin += cells[b].size() * (D + 1);
     }
   }
 
-  void read_correction(bool floating) {
-    std::size_t at = 0;
-    double mean = 0.0;
-    for (std::size_t b = 0; b < cells.size(); ++b) {
-      const auto& e = multigrid.correction(b);
-      for (const std::ptrdiff_t cell : cells[b]) {
-        const auto c = static_cast<std::size_t>(cell);
-        mean += static_cast<double>(e.q[0][c]) / weights[at];
-        for (std::size_t i = 0; i <= D; ++i) d[at++] = static_cast<double>(e.q[i][c]);
+  /// The residual, scaled as face_jacobian has it; the right side of the correction is -r.
+  void collect(const CorrectionPhysics<D>& physics) {
+    const double per_mass = physics.speeds.c0 / physics.fluid.density;
+    const double per_momentum = 1.0 / physics.fluid.density;
+    for_each_solved([&](std::size_t b, std::size_t c, std::size_t at) {
+      auto& right = multigrid.right_side(b);
+      for (std::size_t i = 0; i <= D; ++i) {
+        const double row = i == 0 ? per_mass * rows[b].mass[c] : per_momentum * rows[b].momentum[i - 1][c];
+        r[at + i] = row;
+        right.q[i][c] = static_cast<float>(-row);
       }
-    }
+    });
+  }
+
+  void read_correction(bool floating) {
+    for_each_solved([&](std::size_t b, std::size_t c, std::size_t at) {
+      const auto& e = multigrid.correction(b);
+      for (std::size_t i = 0; i <= D; ++i) d[at + i] = static_cast<double>(e.q[i][c]);
+    });
     if (!floating) return;
-    mean /= total_volume;  // the level of p is free: keep it where it was
+    const auto n = static_cast<std::ptrdiff_t>(d.size() / (D + 1));
+    const auto sum =
+        ordered_sums<1>(n, [&](std::ptrdiff_t begin, std::ptrdiff_t end, std::array<double, 1>& s) {
+          for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k)
+            s[0] += d[k * (D + 1)] / weights[k * (D + 1)];
+        });
+    const double mean = sum[0] / total_volume;  // the level of p is free: keep it where it was
     for (std::size_t k = 0; k < d.size(); k += D + 1) d[k] -= mean;
   }
 
   void apply(std::vector<State<D>>& state, const CorrectionPhysics<D>& physics) const {
     const double p_unit = physics.fluid.density * physics.speeds.c0;
-    std::size_t at = 0;
-    for (std::size_t b = 0; b < cells.size(); ++b)
-      for (const std::ptrdiff_t cell : cells[b]) {
-        const auto c = static_cast<std::size_t>(cell);
-        state[b].p[c] += p_unit * d[at++];
-        for (std::size_t i = 0; i < D; ++i) state[b].u[i][c] += d[at++];
-      }
+    for_each_solved([&](std::size_t b, std::size_t c, std::size_t at) {
+      state[b].p[c] += p_unit * d[at];
+      for (std::size_t i = 0; i < D; ++i) state[b].u[i][c] += d[at + 1 + i];
+    });
   }
 
   /// The norm that round-off leaves of fields this large: no cycle gets below it.
@@ -182,7 +192,7 @@ template <int D>
 StepReport MultigridSolver<D>::solve(const StepProblem<D>& problem, const InnerTolerance& tolerance,
                                      std::vector<State<D>>& q) {
   if (!levels_ || !levels_->fits(problem.blocks))
-    levels_ = std::make_unique<Levels>(problem.blocks, options_.multigrid);
+    levels_ = std::make_unique<Levels>(problem.blocks, options_);
   Levels& levels = *levels_;
   CorrectionPhysics<D> physics{problem.equations.fluid, problem.equations.speeds, problem.time};
   std::vector<const Field*> rates;
@@ -191,13 +201,13 @@ StepReport MultigridSolver<D>::solve(const StepProblem<D>& problem, const InnerT
     if (forcing.active()) physics.forcing_psi = forcing.psi;
   }
   const bool floating = levels.multigrid.closed() && physics.fluid.inverse_c2 == 0.0;
-  Anderson anderson(options_.anderson_depth, levels.weights);
+  levels.anderson.forget();
   StepReport report;
   double round_off = 0.0;
   for (;; ++report.cycles) {
     problem.evaluate(q, levels.rows);
     report.norms.push_back(problem.norm(levels.rows));
-    levels.collect(q, physics);
+    levels.collect(physics);
     if (!std::isfinite(report.norms.back())) levels.complain(problem.blocks, report.cycles);
     if (report.cycles == 0) round_off = levels.round_off(problem.blocks, q, physics);
     report.converged =
@@ -210,7 +220,7 @@ StepReport MultigridSolver<D>::solve(const StepProblem<D>& problem, const InnerT
     }
     levels.multigrid.cycle();
     levels.read_correction(floating);
-    anderson.mix(levels.q, levels.r, levels.d);
+    levels.anderson.mix(levels.r, levels.d);
     levels.apply(q, physics);
   }
 }

@@ -64,54 +64,128 @@ Transfer<D>::Transfer(const LevelGrid<D>& fine, const LevelGrid<D>& coarse, cons
   });
 }
 
+namespace {
+
+/// body(offset of the row's first cell, index of the row) for all rows of cells; scratch holds `width`
+/// numbers.
+template <int D, class Real, class Body>
+void for_each_row(const Extent<D>& extent, std::size_t width, Body&& body) {
+  const std::ptrdiff_t rows = extent.cells() / extent.n[0];
+#pragma omp parallel if (extent.cells() > 16384)
+  {
+    std::vector<Real> scratch(width);
+#pragma omp for schedule(static)
+    for (std::ptrdiff_t k = 0; k < rows; ++k) {
+      std::array<int, D> index{};
+      std::ptrdiff_t rest = k;
+      for (std::size_t d = 1; d < D; ++d) {
+        index[d] = static_cast<int>(rest % extent.n[d]);
+        rest /= extent.n[d];
+      }
+      body(index, extent.at(index), scratch.data());
+    }
+  }
+}
+
+/// sum[i] = sum over rows of weight * values[offset + i], i from -1 to n: one ghost at each end
+template <class Real, class Rows>
+void combine(const Real* values, const Rows& rows, std::size_t count, int n, Real* sum) {
+  for (std::size_t k = 0; k < count; ++k) {
+    const Real* __restrict row = values + rows[k].offset - 1;
+    const Real w = static_cast<Real>(rows[k].weight);
+    Real* __restrict s = sum;
+    if (k == 0)
+      for (int i = 0; i < n + 2; ++i) s[i] = w * row[i];
+    else
+      for (int i = 0; i < n + 2; ++i) s[i] += w * row[i];
+  }
+}
+
+}  // namespace
+
+// Both run row by row: the rows of the other level are combined first, then weighted along direction 0.
+
 template <int D>
 template <class Real>
 void Transfer<D>::restrict_residual(const Correction<D, Real>& fine, Correction<D, Real>& coarse) const {
-  for_each_cell<D>(coarse_, [&](const std::array<int, D>& index, std::ptrdiff_t c) {
-    std::array<double, D + 1> sum{};
-    if (coarse_solved_[static_cast<std::size_t>(c)]) {
-      std::array<int, D> lower{}, upper, shifted;
-      std::array<const Coarse*, D> tap;
-      for (std::size_t d = 0; d < D; ++d) {
-        tap[d] = &up_[d][static_cast<std::size_t>(index[d])];
-        upper[d] = tap[d]->count;
-      }
-      for_each_index<D>(lower, upper, [&](const std::array<int, D>& t) {
-        double w = 1.0;
-        for (std::size_t d = 0; d < D; ++d) {
-          const auto k = static_cast<std::size_t>(t[d]);
-          w *= tap[d]->weight[k];
-          shifted[d] = tap[d]->cell[k];
-        }
-        const auto f = static_cast<std::size_t>(fine_.at(shifted));
-        for (std::size_t i = 0; i <= D; ++i) sum[i] += w * static_cast<double>(fine.q[i][f]);
-      });
+  const int n = coarse_.n[0], n_fine = fine_.n[0];
+  // of each coarse cell up to four fine ones, by their place in the combined row
+  std::vector<int> cell(4 * static_cast<std::size_t>(n), 0);
+  std::vector<Real> weight(cell.size(), Real(0));
+  for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i)
+    for (std::size_t t = 0; t < static_cast<std::size_t>(up_[0][i].count); ++t) {
+      cell[4 * i + t] = up_[0][i].cell[t] + 1;
+      weight[4 * i + t] = static_cast<Real>(up_[0][i].weight[t]);
     }
-    for (std::size_t i = 0; i <= D; ++i) coarse.q[i][static_cast<std::size_t>(c)] = static_cast<Real>(sum[i]);
-  });
+  for_each_row<D, Real>(
+      coarse_, static_cast<std::size_t>(n_fine) + 2,
+      [&](const std::array<int, D>& index, std::ptrdiff_t first, Real* sum) {
+        std::array<Row, k_most_rows> rows;
+        std::size_t count = 1;
+        rows[0] = {fine_.origin, 1.0};
+        for (std::size_t d = 1; d < D; ++d) {
+          const Coarse& taps = up_[d][static_cast<std::size_t>(index[d])];
+          std::array<Row, k_most_rows> more;
+          std::size_t m = 0;
+          for (std::size_t k = 0; k < count; ++k)
+            for (std::size_t t = 0; t < static_cast<std::size_t>(taps.count); ++t)
+              more[m++] = {rows[k].offset + taps.cell[t] * fine_.stride[d], rows[k].weight * taps.weight[t]};
+          rows = more;
+          count = m;
+        }
+        for (std::size_t c = 0; c <= D; ++c) {
+          combine(fine.q[c].data(), rows, count, n_fine, sum);
+          Real* __restrict out = coarse.q[c].data() + first;
+          const std::uint8_t* __restrict solved = coarse_solved_.data() + first;
+          for (int i = 0; i < n; ++i) {
+            const int* at = cell.data() + 4 * i;
+            const Real* w = weight.data() + 4 * i;
+            const Real value = w[0] * sum[at[0]] + w[1] * sum[at[1]] + w[2] * sum[at[2]] + w[3] * sum[at[3]];
+            out[i] = solved[i] ? value : Real(0);
+          }
+        }
+      });
 }
 
 template <int D>
 template <class Real>
 void Transfer<D>::add_prolonged(const Correction<D, Real>& coarse, Correction<D, Real>& fine) const {
-  for_each_cell<D>(fine_, [&](const std::array<int, D>& index, std::ptrdiff_t c) {
-    if (!fine_solved_[static_cast<std::size_t>(c)]) return;
-    std::array<const Fine*, D> f;
-    for (std::size_t d = 0; d < D; ++d) f[d] = &down_[d][static_cast<std::size_t>(index[d])];
-    for (unsigned corner = 0; corner < (1u << D); ++corner) {
-      double w = 1.0;
-      std::ptrdiff_t offset = coarse_.origin;
-      for (std::size_t d = 0; d < D; ++d) {
-        const bool far = corner & (1u << d);
-        w *= far ? f[d]->weight : 1.0 - f[d]->weight;
-        offset += coarse_.stride[d] * (far ? f[d]->neighbour : f[d]->parent);
-      }
-      if (w == 0.0) continue;
-      for (std::size_t i = 0; i <= D; ++i)
-        fine.q[i][static_cast<std::size_t>(c)] +=
-            static_cast<Real>(w) * coarse.q[i][static_cast<std::size_t>(offset)];
-    }
-  });
+  const int n = fine_.n[0], n_coarse = coarse_.n[0];
+  std::vector<int> parent(static_cast<std::size_t>(n)), neighbour(parent.size());
+  std::vector<Real> weight(parent.size());
+  for (std::size_t i = 0; i < parent.size(); ++i) {
+    parent[i] = down_[0][i].parent + 1;
+    neighbour[i] = down_[0][i].neighbour + 1;
+    weight[i] = static_cast<Real>(down_[0][i].weight);
+  }
+  for_each_row<D, Real>(
+      fine_, static_cast<std::size_t>(n_coarse) + 2,
+      [&](const std::array<int, D>& index, std::ptrdiff_t first, Real* sum) {
+        std::array<Row, k_most_rows> rows;
+        std::size_t count = 1;
+        rows[0] = {coarse_.origin, 1.0};
+        for (std::size_t d = 1; d < D; ++d) {
+          const Fine& taps = down_[d][static_cast<std::size_t>(index[d])];
+          const std::size_t before = count;
+          for (std::size_t k = 0; k < before; ++k) {
+            const Row row = rows[k];
+            rows[k] = {row.offset + taps.parent * coarse_.stride[d], row.weight * (1.0 - taps.weight)};
+            if (taps.weight != 0.0)
+              rows[count++] = {row.offset + taps.neighbour * coarse_.stride[d], row.weight * taps.weight};
+          }
+        }
+        for (std::size_t c = 0; c <= D; ++c) {
+          combine(coarse.q[c].data(), rows, count, n_coarse, sum);
+          Real* __restrict out = fine.q[c].data() + first;
+          const std::uint8_t* __restrict solved = fine_solved_.data() + first;
+          for (int i = 0; i < n; ++i) {
+            const Real value =
+                sum[parent[static_cast<std::size_t>(i)]] * (Real(1) - weight[static_cast<std::size_t>(i)]) +
+                sum[neighbour[static_cast<std::size_t>(i)]] * weight[static_cast<std::size_t>(i)];
+            out[i] += solved[i] ? value : Real(0);
+          }
+        }
+      });
 }
 
 template <int D, class Real>

@@ -34,6 +34,12 @@ class Transfer {
     std::array<int, 4> cell{};
     std::array<double, 4> weight{};
   };
+  struct Row {  // one of the rows that a row of the other level is combined from
+    std::ptrdiff_t offset;
+    double weight;
+  };
+  static constexpr std::size_t k_most_rows = D == 2 ? 4 : 16;
+
   Extent<D> fine_, coarse_;
   std::array<std::vector<Fine>, D> down_;
   std::array<std::vector<Coarse>, D> up_;

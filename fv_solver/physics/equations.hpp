@@ -19,7 +19,12 @@ struct WaveSpeeds {
   double c0 = 1.0;     // [m/s]
   double kappa = 0.5;  // [-]
   /// h: volume of the face's dual cell over the face's measure [m]
-  double mass(double h, double dt) const { return std::max(c0, kappa * h / dt); }
+  /// T: a number, or several of them in lanes
+  template <class T>
+  T mass(const T& h, double dt) const {
+    const T least = c0 + T{}, wide = (kappa / dt) * h;
+    return wide > least ? wide : least;
+  }
 };
 
 /// Forcing of (21) on one block: empty arrays where the block has no forced cell.

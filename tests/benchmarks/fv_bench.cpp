@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <string>
 #include <vector>
 
@@ -116,7 +117,9 @@ void residual_row(const Options& options, const std::string& name, int n, Limite
   const double t =
       shortest(1.0, [&] { equations.residual(block, stepper.state()[0], time, history, Forcing<D>{}, r); });
   const double rate = static_cast<double>(block.extent.cells()) / t * 1e-6;
-  std::printf("  %-34s %8.1f M cells/s   %.2f of the bare kernel\n", name.c_str(), rate, rate / kernel);
+  std::printf("  %-34s %8.1f M cells/s", name.c_str(), rate);
+  if (D == 3) std::printf("   %.2f of the bare kernel", rate / kernel);
+  std::printf("\n");
   std::fflush(stdout);
 }
 
@@ -134,12 +137,17 @@ void step_row(const Options& options, const std::string& name, const std::array<
   for (int step = 0; step < 3; ++step) stepper.advance(dt);  // the start is not what is measured
   constexpr int k_steps = 5;
   int cycles = 0;
-  const double begin = now();
-  for (int step = 0; step < k_steps; ++step) cycles += stepper.advance(dt).cycles;
-  const double seconds = (now() - begin) / k_steps;
+  double seconds = 1e30, processor = 1e30;  // of the shortest step
+  for (int step = 0; step < k_steps; ++step) {
+    const double begin = now();
+    const std::clock_t busy = std::clock();
+    cycles += stepper.advance(dt).cycles;
+    seconds = std::min(seconds, now() - begin);
+    processor = std::min(processor, static_cast<double>(std::clock() - busy) / CLOCKS_PER_SEC);
+  }
   const double n = static_cast<double>(stepper.blocks()[0].extent.cells());
-  std::printf("  %-34s %8.0f cells   %4.1f cycles   %6.3f s a step and million cells\n", name.c_str(), n,
-              cycles / static_cast<double>(k_steps), seconds / n * 1e6);
+  std::printf("  %-34s %8.0f cells   %4.1f cycles   %6.3f s a step and million cells (processor %.3f s)\n",
+              name.c_str(), n, cycles / static_cast<double>(k_steps), seconds / n * 1e6, processor / n * 1e6);
   std::fflush(stdout);
 }
 
@@ -155,17 +163,17 @@ void all(const Options& options, int threads) {
   residual_row<2>(options, "residual 400^2", 400, Limiter::none, 0.0, plain);
   residual_row<2>(options, "residual 400^2, limiter", 400, Limiter::van_albada, 0.0, limited);
   residual_row<2>(options, "residual 400^2, friction", 400, Limiter::none, 1e-3, plain);
-  step_row<2>(options, "steps 2-D lid cavity", {400, 400}, true, 0.03);
-  step_row<2>(options, "steps 2-D vortices", {400, 400}, false, 0.03);
-  step_row<3>(options, "steps 3-D lid cavity", {64, 64, 72}, true, 0.03);
-  step_row<3>(options, "steps 3-D vortices", {64, 64, 72}, false, 0.03);
+  step_row<2>(options, "steps 2-D lid cavity", {400, 400}, true, 0.01);
+  step_row<2>(options, "steps 2-D vortices", {400, 400}, false, 0.01);
+  step_row<3>(options, "steps 3-D lid cavity", {64, 64, 72}, true, 0.01);
+  step_row<3>(options, "steps 3-D vortices", {64, 64, 72}, false, 0.01);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   const Options options{std::vector<std::string>(argv + 1, argv + argc)};
-  std::printf("three orders of the unsteady residual a step; dt = .03 L/U, Re = 1000, c infinite\n");
+  std::printf("three orders of the unsteady residual a step; dt = .01 L/U, Re = 1000, c infinite\n");
   all(options, 1);
   const int cores = omp_get_num_procs();
   if (cores > 1) all(options, cores);

@@ -1,0 +1,259 @@
+// Building a LineOperator: the blocks of a bundle's cells in lanes, and their elimination along the lines.
+#include "implicit/line_operator.hpp"
+
+namespace littoral::fv {
+namespace {
+
+template <int D, class T>
+SmallMatrix<D, T> product(const SmallMatrix<D, T>& a, const SmallMatrix<D, T>& b) {
+  SmallMatrix<D, T> c;
+  for (std::size_t i = 0; i <= D; ++i)
+    for (std::size_t k = 0; k <= D; ++k)
+      for (std::size_t j = 0; j <= D; ++j) c[i][j] += a[i][k] * b[k][j];
+  return c;
+}
+
+template <int D, class T>
+void subtract(SmallMatrix<D, T>& a, const SmallMatrix<D, T>& b) {
+  for (std::size_t i = 0; i <= D; ++i)
+    for (std::size_t j = 0; j <= D; ++j) a[i][j] -= b[i][j];
+}
+
+template <int D, class T>
+void add(SmallMatrix<D, T>& a, const SmallMatrix<D, T>& b) {
+  for (std::size_t i = 0; i <= D; ++i)
+    for (std::size_t j = 0; j <= D; ++j) a[i][j] += b[i][j];
+}
+
+template <int D, class T>
+SmallMatrix<D, T> negative(const SmallMatrix<D, T>& a) {
+  SmallMatrix<D, T> c;
+  subtract<D>(c, a);
+  return c;
+}
+
+/// Gauss-Jordan without pivoting: pressure and velocity entries of the diagonal are positive by construction.
+template <int D, class T>
+SmallMatrix<D, T> inverse(SmallMatrix<D, T> a) {
+  SmallMatrix<D, T> inv;
+  for (std::size_t i = 0; i <= D; ++i) inv[i][i] = 1.0 + T{};
+  for (std::size_t k = 0; k <= D; ++k) {
+    const T pivot = 1.0 / a[k][k];
+    for (std::size_t j = 0; j <= D; ++j) {
+      a[k][j] *= pivot;
+      inv[k][j] *= pivot;
+    }
+    for (std::size_t i = 0; i <= D; ++i) {
+      if (i == k) continue;
+      const T f = a[i][k];
+      for (std::size_t j = 0; j <= D; ++j) {
+        a[i][j] -= f * a[k][j];
+        inv[i][j] -= f * inv[k][j];
+      }
+    }
+  }
+  return inv;
+}
+
+template <int D, class V>
+void narrow(const SmallMatrix<D, Lanes<double>>& a, SmallMatrix<D, V>& b) {
+  for (std::size_t i = 0; i <= D; ++i)
+    for (std::size_t j = 0; j <= D; ++j) convert(a[i][j], b[i][j]);
+}
+
+template <int D>
+void set_lane(SmallMatrix<D, Lanes<double>>& a, std::size_t lane, const SmallMatrix<D>& b) {
+  for (std::size_t i = 0; i <= D; ++i)
+    for (std::size_t j = 0; j <= D; ++j) a[i][j][lane] = b[i][j];
+}
+
+}  // namespace
+
+/// The cells of one bundle in turn, and what is carried from one to the next.
+template <int D, class Real>
+struct LineOperator<D, Real>::Line {
+  std::array<int, D> index[k_lanes];  // of each lane's cell
+  Wide diagonal, lower, upper, cross[k_cross];
+  Wide by_left, by_right;     // through the upper face of the cell before, where it is an inner one
+  std::vector<Wide> back, z;  // inverse * upper; response to the last cell of a cyclic line
+
+  explicit Line(std::size_t n) : back(n), z(n) {}
+};
+
+template <int D, class Real>
+template <Spacing S>
+void LineOperator<D, Real>::build_bundle(const LevelGrid<D>& grid, const State<D>& state,
+                                         const CorrectionPhysics<D>& physics, double anchor,
+                                         std::size_t bundle, Line& line) {
+  const auto dir = static_cast<std::size_t>(layout_.direction);
+  const auto& first = layout_.bundles[bundle].first;
+  for (std::size_t l = 0; l < k_lanes; ++l) line.index[l] = grid.extent.index(first[l]);
+  unsigned at_edge[D][2] = {};  // lanes whose cells lie beside a face of the block, across the lines
+  for (std::size_t d = 0; d < D; ++d)
+    for (std::size_t l = 0; l < k_lanes; ++l) {
+      if (d == dir) continue;
+      if (line.index[l][d] == 0) at_edge[d][0] |= 1u << l;
+      if (line.index[l][d] == grid.extent.n[d] - 1) at_edge[d][1] |= 1u << l;
+    }
+  using V = Lanes<double>;
+  const auto velocity = [&](std::ptrdiff_t shift) {
+    FaceState<D, V> q;
+    for (std::size_t k = 0; k < D; ++k) load<S>(state.u[k].data() + shift, first, q.u[k]);
+    return q;
+  };
+  for (int m = 0; m < layout_.length; ++m) {
+    const std::ptrdiff_t shift = m * layout_.stride;
+    for (std::size_t l = 0; l < k_lanes; ++l) line.index[l][dir] = m;
+    V volume;
+    load<S>(grid.volume.data() + shift, first, volume);
+    const FaceState<D, V> here = velocity(shift);
+    line.diagonal = Wide{};
+    for (std::size_t d = 0, across = 0; d < D; ++d) {
+      for (std::size_t side = 0; side < 2; ++side) {
+        const bool along = d == dir, end = m == (side == 0 ? 0 : layout_.length - 1);
+        Wide& neighbour = along ? (side == 0 ? line.lower : line.upper) : line.cross[2 * across + side];
+        if (along && side == 0 && !end) {  // computed from the other side
+          subtract<D>(line.diagonal, line.by_right);
+          neighbour = negative<D>(line.by_left);
+          continue;
+        }
+        const std::ptrdiff_t step = (side == 0 ? -1 : 1) * grid.extent.stride[d];
+        const std::ptrdiff_t face = side == 0 ? shift : shift + step;
+        V area[D], beyond;
+        for (std::size_t k = 0; k < D; ++k) load<S>(grid.area[d][k].data() + face, first, area[k]);
+        load<S>(grid.volume.data() + shift + step, first, beyond);
+        const FaceState<D, V> there = velocity(shift + step);
+        const V dual = 0.5 * (volume + beyond);
+        Wide by_left, by_right, own;
+        if (side == 0) {
+          face_jacobian<D>(area, dual, there, here, physics, by_left, by_right);
+          own = negative<D>(by_right);
+          neighbour = negative<D>(by_left);
+        } else {
+          face_jacobian<D>(area, dual, here, there, physics, by_left, by_right);
+          own = by_left;
+          neighbour = by_right;
+        }
+        const unsigned edge = along ? (end ? (1u << k_lanes) - 1u : 0u) : at_edge[d][side];
+        for (std::size_t l = 0; edge != 0 && l < k_lanes; ++l) {
+          if (!(edge >> l & 1u)) continue;
+          const EdgeCondition condition =
+              grid.edge[d][side][grid.face_index(static_cast<int>(d), line.index[l])];
+          if (condition == EdgeCondition::link) continue;
+          std::array<double, D> outward;
+          FaceState<D> inside;
+          for (std::size_t k = 0; k < D; ++k) {
+            outward[k] = side == 0 ? -area[k][l] : area[k][l];
+            inside.u[k] = here.u[k][l];
+          }
+          set_lane<D>(own, l,
+                      boundary_jacobian<D>(condition, outward, volume[l], inside, physics, grid.far_speed,
+                                           grid.imposed_distance[d]));
+          set_lane<D>(neighbour, l, SmallMatrix<D>{});
+        }
+        add<D>(line.diagonal, own);
+        if (along && side == 1) {
+          line.by_left = by_left;
+          line.by_right = by_right;
+        }
+      }
+      across += d == dir ? 0 : 1;
+    }
+    V forcing{};
+    if (!grid.forcing.empty()) load<S>(grid.forcing.data() + shift, first, forcing);
+    add_cell_jacobian<D>(volume, forcing, here, physics, line.diagonal);
+    line.diagonal[0][0] *= 1.0 + anchor;
+    for (std::size_t l = 0; l < k_lanes; ++l) {
+      if (grid.solved(first[l] + shift)) continue;
+      SmallMatrix<D> one;
+      for (std::size_t i = 0; i <= D; ++i) one[i][i] = 1.0;
+      set_lane<D>(line.diagonal, l, one);
+      for (Wide* a : {&line.lower, &line.upper}) set_lane<D>(*a, l, SmallMatrix<D>{});
+      for (Wide& a : line.cross) set_lane<D>(a, l, SmallMatrix<D>{});
+    }
+    eliminate(bundle, m, line);
+  }
+  if (layout_.cyclic) close(bundle, line);
+}
+
+/// Block Thomas elimination in double, whatever Real is: on thin cells the differences that are left at a
+/// line's end are below float's resolution of the terms. A cyclic line is cut before its last cell:
+/// x_k = y_k - closing_k x_last, and a Schur complement for x_last (Sherman-Morrison-Woodbury).
+template <int D, class Real>
+void LineOperator<D, Real>::eliminate(std::size_t bundle, int k, Line& line) {
+  const std::size_t at = slot(bundle, k), m = static_cast<std::size_t>(k);
+  Forward& forward = forward_[at];
+  narrow<D>(line.diagonal, diagonal_[at]);
+  narrow<D>(line.upper, upper_[at]);
+  narrow<D>(line.lower, forward.lower);
+  for (std::size_t c = 0; c < k_cross; ++c) narrow<D>(line.cross[c], forward.cross[c]);
+  if (layout_.cyclic && k == layout_.length - 1) return;  // the cut cell; see close
+  Wide pivot = line.diagonal;
+  if (k > 0) subtract<D>(pivot, product<D>(line.lower, line.back[m - 1]));
+  const Wide inv = inverse<D>(pivot);
+  line.back[m] = product<D>(inv, line.upper);
+  narrow<D>(inv, forward.inverse);
+  narrow<D>(line.back[m], back_[at]);
+  if (!layout_.cyclic) return;
+  // right side: the column of the cut cell, which neighbours the first cell and the one before the last
+  const bool last = k == layout_.length - 2;
+  Wide column = k == 0 ? line.lower : Wide{};
+  if (last) add<D>(column, line.upper);
+  if (k > 0) subtract<D>(column, product<D>(line.lower, line.z[m - 1]));
+  line.z[m] = product<D>(inv, column);
+}
+
+template <int D, class Real>
+void LineOperator<D, Real>::close(std::size_t bundle, Line& line) {
+  const auto open = static_cast<std::size_t>(layout_.length) - 1;
+  for (std::size_t k = open - 1; k-- > 0;) subtract<D>(line.z[k], product<D>(line.back[k], line.z[k + 1]));
+  Wide schur = line.diagonal;  // of the last cell, which was built last
+  subtract<D>(schur, product<D>(line.lower, line.z[open - 1]));
+  subtract<D>(schur, product<D>(line.upper, line.z[0]));
+  narrow<D>(inverse<D>(schur), forward_[slot(bundle, layout_.length - 1)].inverse);
+  for (std::size_t k = 0; k < open; ++k) narrow<D>(line.z[k], closing_[slot(bundle, static_cast<int>(k))]);
+}
+
+template <int D, class Real>
+void LineOperator<D, Real>::build(const LevelGrid<D>& grid, const State<D>& state,
+                                  const CorrectionPhysics<D>& physics, double anchor) {
+  const std::size_t n_slots = layout_.bundles.size() * static_cast<std::size_t>(layout_.length);
+  forward_.resize(n_slots);
+  for (auto* matrices : {&back_, &diagonal_, &upper_}) matrices->resize(n_slots);
+  if (layout_.cyclic) closing_.resize(n_slots);
+  for (std::size_t d = 0, across = 0; d < D; ++d) {
+    if (static_cast<int>(d) == layout_.direction) continue;
+    cross_shift_[2 * across] = -grid.extent.stride[d];
+    cross_shift_[2 * across + 1] = grid.extent.stride[d];
+    ++across;
+  }
+#pragma omp parallel if (worth_threads(layout_.bundles.size()))
+  {
+    Line line(static_cast<std::size_t>(layout_.length));
+#pragma omp for schedule(static)
+    for (std::size_t bundle = 0; bundle < layout_.bundles.size(); ++bundle) {
+      switch (layout_.bundles[bundle].spacing) {
+        case Spacing::one:
+          build_bundle<Spacing::one>(grid, state, physics, anchor, bundle, line);
+          break;
+        case Spacing::two:
+          build_bundle<Spacing::two>(grid, state, physics, anchor, bundle, line);
+          break;
+        case Spacing::any:
+          build_bundle<Spacing::any>(grid, state, physics, anchor, bundle, line);
+          break;
+      }
+    }
+  }
+}
+
+template void LineOperator<2, float>::build(const LevelGrid<2>&, const State<2>&, const CorrectionPhysics<2>&,
+                                            double);
+template void LineOperator<2, double>::build(const LevelGrid<2>&, const State<2>&,
+                                             const CorrectionPhysics<2>&, double);
+template void LineOperator<3, float>::build(const LevelGrid<3>&, const State<3>&, const CorrectionPhysics<3>&,
+                                            double);
+template void LineOperator<3, double>::build(const LevelGrid<3>&, const State<3>&,
+                                             const CorrectionPhysics<3>&, double);
+
+}  // namespace littoral::fv
