@@ -21,7 +21,7 @@ using Lanes = typename LanesOf<Real>::type;
 
 /// How the cells of a bundle's lines lie in memory: anywhere, side by side, or every second one (zebra along
 /// direction 0). The last two are loaded without picking lane by lane.
-enum class Spacing : std::uint8_t { any, one, two };
+enum class LanePattern : std::uint8_t { any, one, two };
 
 inline Lanes<float> every_second(const Lanes<float>& low, const Lanes<float>& high) {
   typedef std::int32_t Mask __attribute__((vector_size(k_lanes * sizeof(std::int32_t))));
@@ -33,11 +33,11 @@ inline Lanes<double> every_second(const Lanes<double>& low, const Lanes<double>&
 }
 
 /// x[l] = values[first[l]]
-template <Spacing S, class Real>
+template <LanePattern S, class Real>
 inline void load(const Real* values, const std::array<std::ptrdiff_t, k_lanes>& first, Lanes<Real>& x) {
-  if constexpr (S == Spacing::one) {
+  if constexpr (S == LanePattern::one) {
     std::memcpy(&x, values + first[0], sizeof x);
-  } else if constexpr (S == Spacing::two) {
+  } else if constexpr (S == LanePattern::two) {
     Lanes<Real> low, high;
     std::memcpy(&low, values + first[0], sizeof low);
     std::memcpy(&high, values + first[0] + k_lanes, sizeof high);
@@ -49,11 +49,11 @@ inline void load(const Real* values, const std::array<std::ptrdiff_t, k_lanes>& 
 }
 
 /// values[first[l]] = x[l]
-template <Spacing S, class Real>
+template <LanePattern S, class Real>
 inline void store(const Lanes<Real>& x, const std::array<std::ptrdiff_t, k_lanes>& first, Real* values) {
-  if constexpr (S == Spacing::one)
+  if constexpr (S == LanePattern::one)
     std::memcpy(values + first[0], &x, sizeof x);
-  else if constexpr (S == Spacing::two)
+  else if constexpr (S == LanePattern::two)
     for (std::size_t l = 0; l < k_lanes; ++l) values[first[0] + 2 * static_cast<std::ptrdiff_t>(l)] = x[l];
   else
     for (std::size_t l = 0; l < k_lanes; ++l) values[first[l]] = x[l];

@@ -81,7 +81,7 @@ struct LineOperator<D, Real>::Line {
 };
 
 template <int D, class Real>
-template <Spacing S>
+template <LanePattern S>
 void LineOperator<D, Real>::build_bundle(const LevelGrid<D>& grid, const State<D>& state,
                                          const CorrectionPhysics<D>& physics, double anchor,
                                          std::size_t bundle, Line& line) {
@@ -233,14 +233,14 @@ void LineOperator<D, Real>::build(const LevelGrid<D>& grid, const State<D>& stat
 #pragma omp for schedule(static)
     for (std::size_t bundle = 0; bundle < layout_.bundles.size(); ++bundle) {
       switch (layout_.bundles[bundle].spacing) {
-        case Spacing::one:
-          build_bundle<Spacing::one>(grid, state, physics, anchor, bundle, line);
+        case LanePattern::one:
+          build_bundle<LanePattern::one>(grid, state, physics, anchor, bundle, line);
           break;
-        case Spacing::two:
-          build_bundle<Spacing::two>(grid, state, physics, anchor, bundle, line);
+        case LanePattern::two:
+          build_bundle<LanePattern::two>(grid, state, physics, anchor, bundle, line);
           break;
-        case Spacing::any:
-          build_bundle<Spacing::any>(grid, state, physics, anchor, bundle, line);
+        case LanePattern::any:
+          build_bundle<LanePattern::any>(grid, state, physics, anchor, bundle, line);
           break;
       }
     }

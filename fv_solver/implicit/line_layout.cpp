@@ -80,7 +80,7 @@ LineLayout line_layout(const LevelGrid<D>& grid, int direction) {
     const std::ptrdiff_t step = bundle.first[1] - bundle.first[0];
     bool even = step == 1 || step == 2;
     for (std::size_t l = 1; l < k_lanes; ++l) even = even && bundle.first[l] - bundle.first[l - 1] == step;
-    if (even) bundle.spacing = step == 1 ? Spacing::one : Spacing::two;
+    if (even) bundle.spacing = step == 1 ? LanePattern::one : LanePattern::two;
   }
   return layout;
 }

@@ -20,7 +20,7 @@ struct LineLayout {
     std::array<std::ptrdiff_t, k_lanes>
         first{};  // offset of each line's first cell; spare lanes repeat the last
     int n_lines = 0;
-    Spacing spacing = Spacing::any;  // of `first`
+    LanePattern spacing = LanePattern::any;  // of `first`
   };
   std::vector<Bundle> bundles;          // colour by colour
   std::vector<std::size_t> colour_end;  // bundles of colour i: [colour_end[i-1], colour_end[i])

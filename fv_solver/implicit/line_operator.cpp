@@ -23,13 +23,13 @@ inline void assign_product(const SmallMatrix<D, V>& a, const V* x, V* r) {
   }
 }
 
-template <Spacing S, class Fields, class V>
+template <LanePattern S, class Fields, class V>
 inline void load_all(const Fields& q, const std::array<std::ptrdiff_t, k_lanes>& first, std::ptrdiff_t shift,
                      V* x) {
   for (std::size_t i = 0; i < q.size(); ++i) load<S>(q[i].data() + shift, first, x[i]);
 }
 
-template <Spacing S, class Fields, class V>
+template <LanePattern S, class Fields, class V>
 inline void store_all(const V* x, const std::array<std::ptrdiff_t, k_lanes>& first, std::ptrdiff_t shift,
                       Fields& q) {
   for (std::size_t i = 0; i < q.size(); ++i) store<S>(x[i], first, q[i].data() + shift);
@@ -37,16 +37,16 @@ inline void store_all(const V* x, const std::array<std::ptrdiff_t, k_lanes>& fir
 
 /// body(spacing as a constant)
 template <class Body>
-inline void with_spacing(Spacing spacing, Body&& body) {
+inline void with_spacing(LanePattern spacing, Body&& body) {
   switch (spacing) {
-    case Spacing::one:
-      body(std::integral_constant<Spacing, Spacing::one>{});
+    case LanePattern::one:
+      body(std::integral_constant<LanePattern, LanePattern::one>{});
       break;
-    case Spacing::two:
-      body(std::integral_constant<Spacing, Spacing::two>{});
+    case LanePattern::two:
+      body(std::integral_constant<LanePattern, LanePattern::two>{});
       break;
-    case Spacing::any:
-      body(std::integral_constant<Spacing, Spacing::any>{});
+    case LanePattern::any:
+      body(std::integral_constant<LanePattern, LanePattern::any>{});
       break;
   }
 }
@@ -54,7 +54,7 @@ inline void with_spacing(Spacing spacing, Body&& body) {
 }  // namespace
 
 template <int D, class Real>
-template <Spacing S>
+template <LanePattern S>
 void LineOperator<D, Real>::residual_bundle(std::size_t bundle, const Correction<D, Real>& b,
                                             const Correction<D, Real>& e, Correction<D, Real>& r) const {
   const auto& first = layout_.bundles[bundle].first;
@@ -88,7 +88,7 @@ void LineOperator<D, Real>::residual(const Correction<D, Real>& b, const Correct
 }
 
 template <int D, class Real>
-template <Spacing S>
+template <LanePattern S>
 void LineOperator<D, Real>::cross_residual_bundle(std::size_t bundle, const Correction<D, Real>& e,
                                                   Correction<D, Real>& r) const {
   const auto& first = layout_.bundles[bundle].first;
@@ -110,7 +110,7 @@ void LineOperator<D, Real>::residual_after_sweep(const Correction<D, Real>& e, C
 #pragma omp parallel for schedule(static) if (worth_threads(layout_.bundles.size()))
   for (std::size_t bundle = 0; bundle < layout_.bundles.size(); ++bundle)
     with_spacing(layout_.bundles[bundle].spacing, [&](auto spacing) {
-      constexpr Spacing s = decltype(spacing)::value;
+      constexpr LanePattern s = decltype(spacing)::value;
       if (bundle < last) {
         cross_residual_bundle<s>(bundle, e, r);
         return;
@@ -122,7 +122,7 @@ void LineOperator<D, Real>::residual_after_sweep(const Correction<D, Real>& e, C
 }
 
 template <int D, class Real>
-template <Spacing S, bool FromZero>
+template <LanePattern S, bool FromZero>
 void LineOperator<D, Real>::smooth_bundle(std::size_t bundle, const Correction<D, Real>& b,
                                           Correction<D, Real>& e, Column* y) const {
   const auto& first = layout_.bundles[bundle].first;
@@ -179,7 +179,7 @@ void LineOperator<D, Real>::smooth(int colour, const Correction<D, Real>& b, Cor
 #pragma omp for schedule(static)
     for (std::size_t bundle = begin; bundle < end; ++bundle)
       with_spacing(layout_.bundles[bundle].spacing, [&](auto spacing) {
-        constexpr Spacing s = decltype(spacing)::value;
+        constexpr LanePattern s = decltype(spacing)::value;
         if (from_zero)
           smooth_bundle<s, true>(bundle, b, e, y.data());
         else

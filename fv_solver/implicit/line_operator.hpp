@@ -63,17 +63,17 @@ class LineOperator {
   std::size_t slot(std::size_t bundle, int k) const {
     return bundle * static_cast<std::size_t>(layout_.length) + static_cast<std::size_t>(k);
   }
-  template <Spacing S>
+  template <LanePattern S>
   void build_bundle(const LevelGrid<D>& grid, const State<D>& state, const CorrectionPhysics<D>& physics,
                     double anchor, std::size_t bundle, Line& line);
   void eliminate(std::size_t bundle, int k, Line& line);
   void close(std::size_t bundle, Line& line);
-  template <Spacing S>
+  template <LanePattern S>
   void residual_bundle(std::size_t bundle, const Correction<D, Real>& b, const Correction<D, Real>& e,
                        Correction<D, Real>& r) const;
-  template <Spacing S>
+  template <LanePattern S>
   void cross_residual_bundle(std::size_t bundle, const Correction<D, Real>& e, Correction<D, Real>& r) const;
-  template <Spacing S, bool FromZero>
+  template <LanePattern S, bool FromZero>
   void smooth_bundle(std::size_t bundle, const Correction<D, Real>& b, Correction<D, Real>& e,
                      Column* y) const;
 
