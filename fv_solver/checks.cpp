@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <set>
 
 #include "boundary/links.hpp"
 #include "grid/bounds.hpp"
@@ -11,6 +12,7 @@
 #include "grid/space.hpp"
 #include "littoral/error.hpp"
 #include "littoral/support/run_plan.hpp"
+#include "overset/components.hpp"
 
 namespace littoral::fv {
 namespace {
@@ -23,29 +25,17 @@ std::string place(const Block<D>& block, const std::array<int, D>& index) {
   return "block '" + block.name + "', cell at " + text;
 }
 
-/// Blocks connected by joins, each with the lowest number among them.
-template <int D>
-std::vector<std::size_t> connected(const std::vector<Block<D>>& blocks) {
-  std::vector<std::size_t> of(blocks.size());
-  for (std::size_t b = 0; b < of.size(); ++b) of[b] = b;
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (const JoinSide<D>& side : join_sides(blocks)) {
-      const std::size_t low = std::min(of[side.block], of[side.there.block]);
-      changed = changed || of[side.block] != low || of[side.there.block] != low;
-      of[side.block] = of[side.there.block] = low;
-    }
-  }
-  return of;
-}
-
-/// Between blocks that are not joined nothing passes.
+/// Between components that meet, one must take values from the other.
 template <int D>
 void check_apart(const std::vector<Block<D>>& blocks) {
-  const std::vector<std::size_t> group = connected(blocks);
+  const std::vector<std::size_t> group = components(blocks);
+  std::set<std::size_t> receiving;  // components with interpolated cells
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    for (const CellStatus status : blocks[b].status)
+      if (status == CellStatus::interpolated) receiving.insert(group[b]);
   for (std::size_t a = 0; a < blocks.size(); ++a)
     for (std::size_t b = a + 1; b < blocks.size(); ++b) {
-      if (group[a] == group[b]) continue;
+      if (group[a] == group[b] || receiving.count(group[a]) != 0 || receiving.count(group[b]) != 0) continue;
       const coupler::Box one = bounds<D>({blocks[a]}), other = bounds<D>({blocks[b]});
       bool apart = false;
       for (std::size_t d = 0; d < D; ++d) {
@@ -53,10 +43,10 @@ void check_apart(const std::vector<Block<D>>& blocks) {
         apart = apart || one.upper[x] < other.lower[x] || other.upper[x] < one.lower[x];
       }
       if (apart) continue;
-      throw ConfigError("blocks '" + blocks[a].name + "' and '" + blocks[b].name +
-                        "' meet or overlap, but no join connects them and nothing else passes from block to "
-                        "block: let their "
-                        "faces' nodes coincide (joins: auto), or keep the blocks apart");
+      throw ConfigError(
+          "blocks '" + blocks[a].name + "' and '" + blocks[b].name +
+          "' meet or overlap, but nothing passes from one to the other: let their faces' nodes coincide "
+          "(joins: auto), give the upper one faces with condition overset, or keep them apart");
     }
 }
 

@@ -18,7 +18,8 @@ const std::vector<std::pair<std::string, int>> k_conditions = {
     {"state", static_cast<int>(Condition::state)},
     {"periodic", static_cast<int>(Condition::periodic)},
     {"fringe", static_cast<int>(Condition::fringe)},
-    {"join", static_cast<int>(Condition::join)}};
+    {"join", static_cast<int>(Condition::join)},
+    {"overset", static_cast<int>(Condition::overset)}};
 
 const std::array<std::string, 3> k_axes = {"x", "y", "z"};
 const std::vector<std::pair<std::string, int>> k_faces = {{"x_lower", 0}, {"x_upper", 1}, {"y_lower", 2},
@@ -168,7 +169,8 @@ void FaceConfig::bind(Binder& b) {
           "given; "
           "state: all given in two layers of ghosts; periodic; fringe: none, for faces whose cells the "
           "particles impose or blank; join: the faces of another block (or of this one) that lie at the same "
-          "place, in any orientation; see join.");
+          "place, in any orientation; see join; overset: the cells beside the face take their values from "
+          "the grids below.");
   b.key("name", name).doc("Of the wall or opening, for forces and messages; left out: block.face.");
   b.key("u", u).unit("m/s").doc("Velocity along x on the face.");
   b.key("v", v).unit("m/s").doc("Velocity along y on the face; 3-D only.");
@@ -235,6 +237,16 @@ void FvConfig::bind(Binder& b) {
                       [](Binder& item, PlateConfig& plate) { plate.bind(item); });
   b.list<GridFileConfig>("grid_files", "Blocks from PLOT3D files.", grid_files,
                          [](Binder& item, GridFileConfig& file) { file.bind(item); });
+  b.section("overset", "Overlapping grids: blocks listed later lie over earlier ones.", [&] {
+    b.key("fringe_layers", overset.fringe_layers)
+        .min(2)
+        .max(4)
+        .doc("Layers of cells at overset faces, and around holes, that take their values from another grid.");
+    b.key("overlap", overset.overlap)
+        .min(0)
+        .max(50)
+        .doc("Cells of the upper grid, at least, between its own fringe and that of the hole it cuts below.");
+  });
   b.section("time", "Steps of a run without partner, and bounds on the windows of a coupled one.", [&] {
     b.key("dt", time.dt).unit("s").exclusive_min(0).doc("Time step.");
     b.key("cfl", time.cfl)

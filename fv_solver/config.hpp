@@ -10,6 +10,7 @@
 #include "littoral/support/config.hpp"
 #include "littoral/support/partner_config.hpp"
 #include "littoral/support/scene.hpp"
+#include "overset/assembly.hpp"
 #include "physics/equations.hpp"
 
 namespace littoral::fv {
@@ -158,6 +159,7 @@ struct FvConfig {
   std::vector<RingConfig> rings;
   std::vector<PlateConfig> plates;
   std::vector<GridFileConfig> grid_files;
+  OversetOptions overset;
   std::size_t n_parts() const { return blocks.size() + rings.size() + plates.size() + grid_files.size(); }
   /// Names the user gave to faces.
   std::vector<std::string> face_names() const;

@@ -88,6 +88,8 @@ Grid<D> build_grid(const FvConfig& config, const support::Scene& scene) {
   grid.notes.insert(grid.notes.end(), joins.begin(), joins.end());
   grid.notes.insert(grid.notes.end(), quality.begin(), quality.end());
   check_gravity<D>(grid.blocks, scene);
+  grid.overset = assemble_overset<D>(grid.blocks, config.overset);
+  grid.notes.insert(grid.notes.end(), grid.overset.notes.begin(), grid.overset.notes.end());
   return grid;
 }
 
@@ -113,7 +115,8 @@ Stepper<D> make_stepper(const FvConfig& config, const support::Scene& scene,
   else
     solver = std::make_unique<MultigridSolver<D>>();
 
-  Stepper<D> stepper(std::move(grid.blocks), equations, std::move(solver), tolerance);
+  Stepper<D> stepper(std::move(grid.blocks), equations, std::move(solver), tolerance,
+                     std::move(grid.overset.links));
   const auto initial = scene.initial;
   stepper.initialise(
       [&initial](const std::array<double, D>& at, double t) {

@@ -5,6 +5,7 @@
 
 #include "config.hpp"
 #include "dual_time/stepper.hpp"
+#include "overset/assembly.hpp"
 
 namespace littoral::fv {
 
@@ -12,10 +13,11 @@ template <int D>
 struct Grid {
   std::vector<Block<D>> blocks;
   std::vector<std::string> notes;  // for the log: files' dialects, joins found, quality of the blocks
+  OversetAssembly<D> overset;      // empty where no face is an overset one
 };
 
-/// The blocks of a configuration with their windows, joined. throws ConfigError with the problems of all
-/// blocks
+/// The blocks of a configuration with their windows, joined and laid over one another. throws ConfigError
+/// with the problems of all blocks
 template <int D>
 Grid<D> build_grid(const FvConfig& config, const support::Scene& scene);
 

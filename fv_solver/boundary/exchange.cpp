@@ -5,7 +5,8 @@
 namespace littoral::fv {
 
 template <int D>
-Exchange<D>::Exchange(const std::vector<Block<D>>& blocks) {
+Exchange<D>::Exchange(const std::vector<Block<D>>& blocks, OversetLinks<D> overset)
+    : overset_(std::move(overset)) {
   std::vector<Extent<D>> extents;
   for (const auto& block : blocks) extents.push_back(block.extent);
   links_ = JoinLinks<D>(join_sides(blocks), extents, k_ghost);
@@ -13,6 +14,20 @@ Exchange<D>::Exchange(const std::vector<Block<D>>& blocks) {
 
 template <int D>
 void Exchange<D>::states(const std::vector<Block<D>>& blocks, std::vector<State<D>>& q) const {
+  for (const auto& r : overset_.receivers) {
+    const auto to = static_cast<std::size_t>(r.cell);
+    if (blocks[r.block].status[to] != CellStatus::interpolated) continue;  // the partner's region by now
+    double p = blocks[r.block].reference_pressure[to];
+    std::array<double, D> u{};
+    for (std::size_t k = 0; k < r.weight.size(); ++k) {
+      const State<D>& donor = q[r.donor_block[k]];
+      const auto from = static_cast<std::size_t>(r.donor[k]);
+      p += r.weight[k] * (donor.p[from] - blocks[r.donor_block[k]].reference_pressure[from]);
+      for (std::size_t d = 0; d < D; ++d) u[d] += r.weight[k] * donor.u[d][from];
+    }
+    q[r.block].p[to] = p;
+    for (std::size_t d = 0; d < D; ++d) q[r.block].u[d][to] = u[d];
+  }
   for (std::size_t b = 0; b < blocks.size(); ++b) fill_ghosts(blocks[b], q[b]);
   links_.for_each([&](const CellCopies& c) {
     const double* reference_here = blocks[c.to_block].reference_pressure.data();

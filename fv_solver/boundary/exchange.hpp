@@ -4,29 +4,32 @@
 
 #include "boundary/links.hpp"
 #include "grid/block.hpp"
+#include "overset/donors.hpp"
 
 namespace littoral::fv {
 
 /// What passes between blocks, and the ghosts of each: the one place where values from elsewhere enter a
 /// block. Every evaluation of the residual goes through states(); the correction has the same on each of its
-/// levels (Multigrid::exchange). Whoever imposes values from other blocks (overset fringes) adds them to
-/// both.
+/// levels (Multigrid::exchange).
 template <int D>
 class Exchange {
  public:
   Exchange() = default;
   /// Joins of the blocks' windows. The blocks may change their statuses and windows' values, not their joins.
-  explicit Exchange(const std::vector<Block<D>>& blocks);
+  /// overset: the interpolated cells of overlapping blocks, if any.
+  explicit Exchange(const std::vector<Block<D>>& blocks, OversetLinks<D> overset = {});
 
-  /// Sets p and u in all ghosts of all blocks: behind windows (fill_ghosts), then behind joins, edges and
-  /// corners included. Across a periodic pair pressures are those relative to the hydrostatic reference. pre
-  /// windows evaluated    comm local
+  /// Sets p (beyond hydrostatic) and u in all interpolated cells, then in all ghosts of all blocks: behind
+  /// windows (fill_ghosts), then behind joins, edges and corners included. Across a periodic pair pressures
+  /// are those relative to the hydrostatic reference. pre windows evaluated    comm local
   void states(const std::vector<Block<D>>& blocks, std::vector<State<D>>& q) const;
 
   const JoinLinks<D>& links() const { return links_; }
+  const OversetLinks<D>& overset() const { return overset_; }
 
  private:
   JoinLinks<D> links_;
+  OversetLinks<D> overset_;
 };
 
 /// Centres, volumes and face areas of the ghosts behind joins are those of the cells there, so that

@@ -29,6 +29,8 @@ const char* name(Condition condition) {
       return "fringe";
     case Condition::join:
       return "join";
+    case Condition::overset:
+      return "overset";
   }
   return "?";
 }
@@ -175,6 +177,7 @@ void fill_window(const Block<D>& block, const Window<D>& w, State<D>& q) {
         break;
       case Condition::fringe:
       case Condition::join:
+      case Condition::overset:
         break;
     }
     ++flat;

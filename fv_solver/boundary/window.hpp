@@ -21,6 +21,7 @@ namespace littoral::fv {
 ///   periodic   the opposite face of the same block
 ///   fringe     nothing: only beside cells that are not solved (imposed or blanked)
 ///   join       the cells of another block (or of another face of the same one) beyond the face
+///   overset    nothing: the cells beside it take their values from an overlapping grid
 enum class Condition : std::uint8_t {
   wall,
   slip,
@@ -31,7 +32,8 @@ enum class Condition : std::uint8_t {
   state,
   periodic,
   fringe,
-  join
+  join,
+  overset
 };
 const char* name(Condition condition);
 

@@ -30,9 +30,10 @@ const char* const k_advice = "try a smaller step, a smaller dual_time.pseudo_cfl
 
 template <int D>
 Stepper<D>::Stepper(std::vector<Block<D>> blocks, const Equations<D>& equations,
-                    std::unique_ptr<StepSolver<D>> inner, const InnerTolerance& tolerance)
+                    std::unique_ptr<StepSolver<D>> inner, const InnerTolerance& tolerance,
+                    OversetLinks<D> overset)
     : blocks_(std::move(blocks)),
-      exchange_(blocks_),
+      exchange_(blocks_, std::move(overset)),
       equations_(equations),
       inner_(std::move(inner)),
       tolerance_(tolerance),

@@ -41,7 +41,7 @@ template <int D>
 class Stepper {
  public:
   Stepper(std::vector<Block<D>> blocks, const Equations<D>& equations, std::unique_ptr<StepSolver<D>> inner,
-          const InnerTolerance& tolerance);
+          const InnerTolerance& tolerance, OversetLinks<D> overset = {});
 
   /// Sets the state everywhere from a formula, at time t; forgets older levels. throws StabilityError
   void initialise(const FlowFunction<D>& flow, double t);

@@ -13,9 +13,9 @@ namespace littoral::fv {
 /// Layers of ghost cells around a block: third-order reconstruction needs two.
 inline constexpr int k_ghost = 2;
 
-/// What a cell is to the equations: solved; ignored; value imposed (by another block or the partner); solved
-/// with the forcing of (21)-(23).
-enum class CellStatus : std::uint8_t { computed = 0, blanked = 1, fringe = 2, forced = 3 };
+/// What a cell is to the equations: solved; ignored; value imposed by the partner (or by nobody, in ghosts);
+/// solved with the forcing of (21)-(23); value interpolated from an overlapping block (overset/).
+enum class CellStatus : std::uint8_t { computed = 0, blanked = 1, fringe = 2, forced = 3, interpolated = 4 };
 
 /// Index space of one structured block with ghosts: one contiguous array per field, direction 0 fastest.
 /// In 2-D the directions and components are those of the plane (x, z); a third direction does not exist at

@@ -86,13 +86,18 @@ LevelGrid<D> coarsen(const LevelGrid<D>& fine, const std::array<int, D>& ratio) 
   for (std::size_t d = 0; d < D; ++d) coarse.imposed_distance[d] = fine.imposed_distance[d] / ratio[d];
   if (!fine.forcing.empty()) coarse.forcing.assign(coarse.extent.size, 0.0);
   Field solved(coarse.extent.size, 0.0);
+  // of cells that are not solved: what corrections they take decides, see link_corrections
+  std::vector<CellStatus> other(coarse.extent.size, CellStatus::blanked);
 
   for_each_cell<D>(fine.extent, [&](const auto& index, std::ptrdiff_t c) {
     const std::array<int, D> up = parent<D>(index, ratio);
     const auto f = static_cast<std::size_t>(c);
     const auto p = static_cast<std::size_t>(coarse.extent.at(up));
     coarse.volume[p] += fine.volume[f];
-    if (fine.solved(c)) solved[p] += fine.volume[f];
+    if (fine.solved(c))
+      solved[p] += fine.volume[f];
+    else if (other[p] != CellStatus::interpolated && fine.status[f] != CellStatus::blanked)
+      other[p] = fine.status[f];
     if (!fine.forcing.empty()) coarse.forcing[p] += fine.volume[f] * fine.forcing[f];
     for (std::size_t d = 0; d < D; ++d) {
       if (index[d] % ratio[d] == 0)  // lower face of the parent
@@ -110,7 +115,7 @@ LevelGrid<D> coarsen(const LevelGrid<D>& fine, const std::array<int, D>& ratio) 
   });
   for_each_cell<D>(coarse.extent, [&](const auto&, std::ptrdiff_t c) {
     const auto p = static_cast<std::size_t>(c);
-    coarse.status[p] = solved[p] >= 0.499 * coarse.volume[p] ? CellStatus::computed : CellStatus::fringe;
+    coarse.status[p] = solved[p] >= 0.499 * coarse.volume[p] ? CellStatus::computed : other[p];
     if (!coarse.forcing.empty()) coarse.forcing[p] /= coarse.volume[p];
   });
   ghost_volumes(coarse);

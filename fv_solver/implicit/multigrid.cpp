@@ -20,6 +20,7 @@ struct Multigrid<D, Real>::Level {
   std::vector<BlockLevel> blocks;
   std::vector<JoinSide<D>> joins;
   JoinLinks<D> links;  // first ghost layer
+  LevelOverlap<D> overlap;
 
   void set_joins(std::vector<JoinSide<D>> sides) {
     joins = std::move(sides);
@@ -27,24 +28,30 @@ struct Multigrid<D, Real>::Level {
     for (const auto& block : blocks) extents.push_back(block.grid.extent);
     links = JoinLinks<D>(joins, extents, 1);
   }
+  std::vector<const LevelGrid<D>*> grids() const {
+    std::vector<const LevelGrid<D>*> all;
+    for (const auto& block : blocks) all.push_back(&block.grid);
+    return all;
+  }
 };
 
 template <int D, class Real>
 Multigrid<D, Real>::Multigrid(std::vector<LevelGrid<D>> blocks, const MultigridOptions& options,
-                              std::vector<JoinSide<D>> joins)
+                              std::vector<JoinSide<D>> joins, LevelOverlap<D> overlap)
     : options_(options) {
-  if (!joins.empty()) options_.coarsest_sweeps *= 2;
+  if (!joins.empty() || !overlap.empty()) options_.coarsest_sweeps *= 2;
   levels_.push_back(std::make_unique<Level>());
   for (auto& grid : blocks) {
     levels_[0]->blocks.emplace_back();
     levels_[0]->blocks.back().grid = std::move(grid);
   }
   levels_[0]->set_joins(std::move(joins));
+  levels_[0]->overlap = std::move(overlap);
   for (;;) {
     Level& level = *levels_.back();
-    std::vector<const LevelGrid<D>*> grids;
+    const std::vector<const LevelGrid<D>*> grids = level.grids();
+    if (!level.overlap.empty()) link_corrections<D>(level.overlap, grids, level.joins);
     for (auto& block : level.blocks) {
-      grids.push_back(&block.grid);
       block.directions = stiff_directions(block.grid);
       for (int d : block.directions) block.operators.emplace_back(block.grid, d);
       for (Correction<D, Real>* field : {&block.b, &block.e, &block.r})
@@ -65,12 +72,15 @@ Multigrid<D, Real>::Multigrid(std::vector<LevelGrid<D>> blocks, const MultigridO
     }
     next->set_joins(coarse_joins<D>(level.joins, ratios));
     next->links.copy([&](std::size_t i) -> Field& { return next->blocks[i].grid.volume; }, true);
+    if (!level.overlap.empty())
+      next->overlap = coarsen_overlap<D>(level.overlap, grids, ratios, next->grids());
     levels_.push_back(std::move(next));
   }
   closed_ = true;
   for (const auto& block : levels_[0]->blocks) {
     for_each_cell<D>(block.grid.extent, [&](const auto&, std::ptrdiff_t c) {
-      if (block.grid.status[static_cast<std::size_t>(c)] != CellStatus::computed) closed_ = false;
+      const CellStatus status = block.grid.status[static_cast<std::size_t>(c)];
+      if (status == CellStatus::fringe || status == CellStatus::forced) closed_ = false;
     });
     for (const auto& direction : block.grid.edge)
       for (const auto& side : direction)
@@ -150,10 +160,24 @@ const std::vector<int>& Multigrid<D, Real>::directions(std::size_t i) const {
 
 template <int D, class Real>
 void Multigrid<D, Real>::exchange(Level& level) {
+  if (!level.overlap.links.empty()) interpolate(level);
   for (auto& block : level.blocks)
     for (auto& field : block.e.q) fill_periodic(block.grid, field);
   for (std::size_t k = 0; k <= D; ++k)
     level.links.copy([&](std::size_t i) -> std::vector<Real>& { return level.blocks[i].e.q[k]; }, true);
+}
+
+template <int D, class Real>
+void Multigrid<D, Real>::interpolate(Level& level) {
+  for (std::size_t k = 0; k <= D; ++k) {
+    level.overlap.links.interpolate(
+        [&](std::size_t i) -> std::vector<Real>& { return level.blocks[i].e.q[k]; });
+    for (const auto& r : level.overlap.links.receivers) {
+      BlockLevel& block = level.blocks[r.block];
+      const auto c = static_cast<std::size_t>(r.cell);
+      block.b.q[k][c] = block.e.q[k][c];
+    }
+  }
 }
 
 template <int D, class Real>
@@ -206,8 +230,7 @@ void Multigrid<D, Real>::descend(std::size_t l, bool fresh) {
   if (fresh)
     for (auto& block : level.blocks)
       for (auto& field : block.e.q) std::fill(field.begin(), field.end(), Real(0));
-  else
-    exchange(level);
+  if (!fresh || !level.overlap.links.empty()) exchange(level);
   if (l + 1 == levels_.size()) {
     for (int s = 0; s < options_.coarsest_sweeps; ++s) {
       sweep(level, true);

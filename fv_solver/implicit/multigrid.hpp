@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "implicit/level_joins.hpp"
+#include "implicit/level_overlap.hpp"
 #include "implicit/line_operator.hpp"
 #include "implicit/transfer.hpp"
 
@@ -25,7 +26,7 @@ template <int D, class Real>
 class Multigrid {
  public:
   Multigrid(std::vector<LevelGrid<D>> blocks, const MultigridOptions& options,
-            std::vector<JoinSide<D>> joins = {});
+            std::vector<JoinSide<D>> joins = {}, LevelOverlap<D> overlap = {});
   ~Multigrid();
   Multigrid(Multigrid&&) noexcept;
   Multigrid& operator=(Multigrid&&) noexcept;
@@ -54,9 +55,11 @@ class Multigrid {
   struct Level;
   /// from_zero: all of the correction is still 0
   void sweep(Level& level, bool forward, bool from_zero = false);
-  /// The correction's ghosts of one level, from periodic images and other blocks: all that crosses between
-  /// blocks inside the cycle.
+  /// The correction's ghosts of one level, from periodic images and other blocks, and its interpolated cells
+  /// from overlapping blocks: all that crosses between blocks inside the cycle.
   void exchange(Level& level);
+  /// Interpolated cells: the right side too, so that their identity rows keep the value.
+  void interpolate(Level& level);
   /// Ghosts for the interpolation between levels, edges and corners included. field: of a block
   template <class FieldOf>
   void fill_for_transfer(Level& level, FieldOf&& field_of);

@@ -26,6 +26,7 @@ EdgeCondition edge_condition(Condition condition) {
       return EdgeCondition::outflow;
     case Condition::periodic:
     case Condition::join:
+    case Condition::overset:
       return EdgeCondition::link;
     case Condition::far_field:
       return EdgeCondition::far_field;
@@ -72,7 +73,9 @@ struct MultigridSolver<D>::Levels {
   double total_volume = 0.0;
 
   Levels(const std::vector<Block<D>>& blocks, const MultigridSolverOptions& options)
-      : grids(all_grids(blocks)), multigrid(grids, options.multigrid, join_sides(blocks)), anderson(0, {}) {
+      : grids(all_grids(blocks)),
+        multigrid(grids, options.multigrid, join_sides(blocks), level_overlap(blocks)),
+        anderson(0, {}) {
     for (const LevelGrid<D>& grid : grids) {
       cells.emplace_back();
       for_each_cell<D>(grid.extent, [&](const auto&, std::ptrdiff_t c) {

@@ -1,5 +1,15 @@
 littoral_gtest(
   NAME fv_core_test
   PREFIX fv
-  SOURCES box_test.cpp flows_test.cpp generators_test.cpp grid_parts_test.cpp joins_test.cpp measures_test.cpp metrics_test.cpp plot3d_test.cpp residual_test.cpp stepper_test.cpp
+  SOURCES box_test.cpp
+          flows_test.cpp
+          generators_test.cpp
+          grid_parts_test.cpp
+          joins_test.cpp
+          measures_test.cpp
+          metrics_test.cpp
+          overset_test.cpp
+          plot3d_test.cpp
+          residual_test.cpp
+          stepper_test.cpp
   LIBS fv_core)
