@@ -66,6 +66,15 @@ void Config::bind(support::Binder& b) {
         .max(4)
         .doc("Reach of the lists beyond the kernel; a wider skin lets them live longer.");
   });
+  b.section("ranks", "A run on several MPI ranks.", [&] {
+    b.key("load_drift", load_drift)
+        .unit("-")
+        .min(1)
+        .max(100)
+        .doc(
+            "Space is divided anew when the fullest rank's share has grown by this factor since the last "
+            "time.");
+  });
   b.section("output", "What is written besides scalars.", [&] {
     b.key("fields", fields)
         .doc("Of the particles: velocity, pressure, density, volume, zone, surface, normal, shift, id.");

@@ -35,6 +35,7 @@ struct Config {
   double viscous_cfl = 0.12;
   double force_cfl = 0.25;
   double skin = 0.3;  // [dx]
+  double load_drift = 1.1;
   std::vector<std::string> fields = {"velocity", "pressure"};
   std::vector<GaugeConfig> gauges;
   CouplingConfig coupling;

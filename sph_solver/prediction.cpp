@@ -4,7 +4,6 @@
 #include <sstream>
 
 #include "littoral/error.hpp"
-#include "particles/lattice.hpp"
 #include "physics/dynamics.hpp"
 
 namespace littoral::sph {
@@ -17,11 +16,12 @@ Layers<D> region_of(const RunConfig& config, bool coupled) {
 }
 
 template <int D>
-void place_particles(const RunConfig& config, const Layers<D>& layers, Particles<D>& particles) {
+void place_particles(const RunConfig& config, const Layers<D>& layers, Particles<D>& particles,
+                     const LatticeShare& share) {
   for (const auto& box : layers.boxes())
     fill_lattice<D>(box.outer_lower, box.outer_upper, config.sph.spacing, config.scene,
-                    numerics_of<D>(config).eos, particles);
-  if (particles.n_owned == 0)
+                    numerics_of<D>(config).eos, particles, share);
+  if (particles.next_id == 0)
     throw ConfigError(
         "the scene has no particle at the start: initial.surface is not below 0 at any lattice point of the "
         "region. Check its sign (water where it is negative), the region's box and the spacing.");
@@ -70,7 +70,7 @@ std::string Prediction::text() const {
 
 template Layers<2> region_of<2>(const RunConfig&, bool);
 template Layers<3> region_of<3>(const RunConfig&, bool);
-template void place_particles<2>(const RunConfig&, const Layers<2>&, Particles<2>&);
-template void place_particles<3>(const RunConfig&, const Layers<3>&, Particles<3>&);
+template void place_particles<2>(const RunConfig&, const Layers<2>&, Particles<2>&, const LatticeShare&);
+template void place_particles<3>(const RunConfig&, const Layers<3>&, Particles<3>&, const LatticeShare&);
 
 }  // namespace littoral::sph

@@ -5,6 +5,7 @@
 
 #include "config.hpp"
 #include "coupling/zones.hpp"
+#include "particles/lattice.hpp"
 #include "particles/particles.hpp"
 
 namespace littoral::sph {
@@ -14,9 +15,10 @@ namespace littoral::sph {
 template <int D>
 Layers<D> region_of(const RunConfig& config, bool coupled);
 
-/// The particles at the start. throws ConfigError: there is none
+/// The particles at the start, or one rank's share of them. throws ConfigError: there is none
 template <int D>
-void place_particles(const RunConfig& config, const Layers<D>& layers, Particles<D>& particles);
+void place_particles(const RunConfig& config, const Layers<D>& layers, Particles<D>& particles,
+                     const LatticeShare& share = {});
 
 /// What a run will be, before it is one.
 struct Prediction {

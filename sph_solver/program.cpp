@@ -45,7 +45,7 @@ std::unique_ptr<coupler::FvPartner> partner_of(coupler::Job& job, const support:
 template <int D>
 void run(coupler::Job& job, const support::ProgramOptions& options, const RunConfig& config,
          const std::string& folder, support::Log& log) {
-  Solver<D> solver(config, folder, log, partner_of(job, options, config), options.restart);
+  Solver<D> solver(config, folder, log, partner_of(job, options, config), options.restart, job.comm());
   solver.run();
 }
 
@@ -84,15 +84,17 @@ int run_program(coupler::Job& job, int argc, char** argv) {
     if (speaks) std::cout << options.config << ": no problem found\n" << prediction;
     return 0;
   }
-  if (job.size() > 1)
-    throw ConfigError("sph_solver runs on one rank, not on " + std::to_string(job.size()) +
+  if (job.size() > 1 && coupled)
+    throw ConfigError("sph_solver with a partner runs on one rank, not on " + std::to_string(job.size()) +
                       "; start it with -n 1 and give it threads instead (OMP_NUM_THREADS).");
   const std::string folder = options.out + "/sph";
-  std::error_code failure;
-  std::filesystem::create_directories(folder, failure);
-  if (failure) throw IoError(folder + ": cannot be made: " + failure.message());
-  support::Log log("sph", job.rank(), folder + "/log.txt");
-  write_text(folder + "/config.yaml", resolved_text(config));
+  if (speaks) {
+    std::error_code failure;
+    std::filesystem::create_directories(folder, failure);
+    if (failure) throw IoError(folder + ": cannot be made: " + failure.message());
+    write_text(folder + "/config.yaml", resolved_text(config));
+  }
+  support::Log log("sph", job.rank(), speaks ? folder + "/log.txt" : "");
   config.scene.dimension == 2 ? run<2>(job, options, config, folder, log)
                               : run<3>(job, options, config, folder, log);
   return 0;

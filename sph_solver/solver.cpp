@@ -11,26 +11,42 @@
 #include "littoral/support/due.hpp"
 #include "littoral/support/summary.hpp"
 #include "littoral/support/timers.hpp"
+#include "parallel/gather_mpi.hpp"
 #include "particles/lattice.hpp"
 #include "particles/relaxation.hpp"
 #include "prediction.hpp"
 
 namespace littoral::sph {
 
+namespace {
+
+/// The other ranks, or null where there are none.
+template <int D>
+std::unique_ptr<MpiRanks<D>> ranks_of(MPI_Comm comm, const DomainBox<D>& box) {
+  int size = 1;
+  MPI_Comm_size(comm, &size);
+  return size > 1 ? std::make_unique<MpiRanks<D>>(comm, box) : nullptr;
+}
+
+}  // namespace
+
 template <int D>
 Solver<D>::Solver(const RunConfig& config, const std::string& folder, support::Log& log,
-                  std::unique_ptr<coupler::FvPartner> partner, const std::string& restart)
+                  std::unique_ptr<coupler::FvPartner> partner, const std::string& restart, MPI_Comm comm)
     : config_(config),
       folder_(folder),
       log_(log),
       partner_(std::move(partner)),
-      dynamics_(numerics_of<D>(config), domain_of<D>(config)),
+      ranks_(ranks_of<D>(comm, domain_of<D>(config))),
+      dynamics_(numerics_of<D>(config), domain_of<D>(config), ranks_.get()),
       layers_(region_of<D>(config, partner_ != nullptr)),
       restart_(restart.empty() ? std::nullopt : std::optional(read_run_state(restart, config.scene))),
-      output_(folder, config, restart_) {
+      output_(folder, config, restart_, ranks_.get()) {
   if (partner_) driver_.emplace(config.scene, config.sph.coupling, dynamics_.numerics(), *partner_);
+  // with a partner space is divided anew between windows only, when the partner can be told
+  if (ranks_ && !partner_) ranks_->balance_with_migration(config.sph.load_drift);
   if (restart_) {
-    read_checkpoint(restart, config.scene, particles_, driver_ ? &driver_->hooks().exchange() : nullptr);
+    read_particles(restart);
     time_ = last_checkpoint_ = restart_->time;
     window_ = restart_->window;
     dynamics_.set_most_acceleration(restart_->most_acceleration);
@@ -38,25 +54,48 @@ Solver<D>::Solver(const RunConfig& config, const std::string& folder, support::L
   } else {
     place_particles();
   }
+  n_particles_ = n_particles();
   log_.info(describe());
 }
 
 template <int D>
+void Solver<D>::read_particles(const std::string& restart) {
+  const CheckpointShare share = ranks_ ? CheckpointShare{ranks_->rank(), ranks_->size()} : CheckpointShare{};
+  read_checkpoint(restart, config_.scene, particles_, driver_ ? &driver_->hooks().exchange() : nullptr,
+                  share);
+  if (!ranks_) return;
+  if (restart_->rank_counts.size() == static_cast<std::size_t>(share.size)) {
+    ranks_->set_regions(Regions<D>::unpack(restart_->regions));
+    ranks_->set_load(restart_->load);
+  } else {
+    ranks_->balance(particles_);
+  }
+}
+
+template <int D>
+std::int64_t Solver<D>::n_particles() {
+  return ranks_ ? ranks_->total(particles_) : static_cast<std::int64_t>(particles_.n_owned);
+}
+
+template <int D>
 void Solver<D>::place_particles() {
-  sph::place_particles<D>(config_, layers_, particles_);
+  const LatticeShare share = ranks_ ? LatticeShare{ranks_->rank(), ranks_->size()} : LatticeShare{};
+  sph::place_particles<D>(config_, layers_, particles_, share);
+  if (ranks_) ranks_->balance(particles_);
   if (config_.sph.initial_distribution != Config::InitialDistribution::relaxed) return;
-  relax(particles_, dynamics_.numerics(), domain_of<D>(config_));
+  relax(particles_, dynamics_.numerics(), domain_of<D>(config_), ranks_.get());
   set_start_states(config_.scene, dynamics_.numerics().eos, particles_);
 }
 
 template <int D>
-std::string Solver<D>::describe() const {
+std::string Solver<D>::describe() {
   const auto& numerics = dynamics_.numerics();
   std::ostringstream text;
-  text << config_.scene.title << ": " << particles_.n_owned << " particles in " << D << "-D, spacing "
+  text << config_.scene.title << ": " << n_particles_ << " particles in " << D << "-D, spacing "
        << numerics.spacing << " m, kernel radius " << numerics.kernel_radius << " m, dt "
-       << dynamics_.stable_time_step() << " s, " << omp_get_max_threads() << " threads, "
-       << (partner_ ? partner_->description() : "alone");
+       << dynamics_.stable_time_step() << " s, "
+       << (ranks_ ? std::to_string(ranks_->size()) + " ranks of " : "") << omp_get_max_threads()
+       << " threads, " << (partner_ ? partner_->description() : "alone");
   return text.str();
 }
 
@@ -156,11 +195,12 @@ void Solver<D>::write(const coupler::Agreement& agreement) {
   const auto& window = agreement.window;
   dynamics_.prepare(particles_, time_, hooks());
   output_.write_rows(moment(window), particles_, dynamics_, layers_);
+  n_particles_ = n_particles();
   warn_of_layers();
   if (agreement.write) output_.write_fields(time_, particles_);
   if (agreement.checkpoint) write_checkpoint();
   std::ostringstream details;
-  details << "dt " << window.substep_dt() << " s, " << particles_.n_owned << " particles";
+  details << "dt " << window.substep_dt() << " s, " << n_particles_ << " particles";
   log_.progress(time_, config_.scene.time.end, details.str());
 }
 
@@ -192,7 +232,30 @@ void Solver<D>::write_checkpoint() {
   particles_.drop_ghosts();
   if (driver_) driver_->forget_hints(particles_);
   const ParticleExchange<D>* exchange = driver_ ? &driver_->hooks().exchange() : nullptr;
-  sph::write_checkpoint(checkpoint_path(folder_, window_), run, particles_, exchange);
+  const std::string path = checkpoint_path(folder_, window_);
+  if (!ranks_) {
+    sph::write_checkpoint(path, run, particles_, exchange);
+    return;
+  }
+  run.regions = ranks_->regions().pack();
+  run.load = ranks_->load();
+  const Particles<D> all = gather_on_root(particles_, ranks_->comm(), &run.rank_counts);
+  if (ranks_->rank() == 0) sph::write_checkpoint(path, run, all, exchange);
+}
+
+/// What one rank did, summed or the slowest's: on all ranks.
+template <int D>
+WorkCount Solver<D>::work_of_all(std::vector<double>& seconds) {
+  WorkCount work = dynamics_.work();
+  if (!ranks_) return work;
+  std::array<double, 3> parts = {static_cast<double>(work.particle_steps), static_cast<double>(work.pairs),
+                                 static_cast<double>(work.mirrored_back)};
+  ranks_->take_sum(parts.data(), parts.size());
+  ranks_->take_largest(seconds.data(), seconds.size());
+  work.particle_steps = static_cast<std::int64_t>(parts[0]);
+  work.pairs = static_cast<std::int64_t>(parts[1]);
+  work.mirrored_back = static_cast<std::int64_t>(parts[2]);
+  return work;
 }
 
 template <int D>
@@ -202,16 +265,21 @@ void Solver<D>::write_summary(double wall_time) {
   summary.version = LITTORAL_VERSION;
   summary.threads = omp_get_max_threads();
   summary.wall_time = wall_time;
+  std::vector<double> seconds;
   for (std::size_t phase = 0; phase < k_phase_names.size(); ++phase)
-    summary.phases.emplace_back(k_phase_names[phase], dynamics_.seconds()[phase]);
-  summary.phases.emplace_back("output", output_.seconds());
-  summary.phases.emplace_back("wait", partner_ ? partner_->waited() : 0.0);
-  const WorkCount& work = dynamics_.work();
-  const double loops = dynamics_.seconds()[Phase::gradients] + dynamics_.seconds()[Phase::fluxes];
+    seconds.push_back(dynamics_.seconds()[phase]);
+  seconds.insert(seconds.end(), {output_.seconds(), partner_ ? partner_->waited() : 0.0});
+  const WorkCount work = work_of_all(seconds);
+  for (std::size_t phase = 0; phase < k_phase_names.size(); ++phase)
+    summary.phases.emplace_back(k_phase_names[phase], seconds[phase]);
+  summary.phases.emplace_back("output", seconds[k_phase_names.size()]);
+  summary.phases.emplace_back("wait", seconds[k_phase_names.size() + 1]);
+  const double loops =
+      seconds[static_cast<std::size_t>(Phase::gradients)] + seconds[static_cast<std::size_t>(Phase::fluxes)];
   const double pairs_per_second = loops > 0.0 ? static_cast<double>(work.pairs) / loops : 0.0;
   const double particle_steps_per_second =
       static_cast<double>(work.particle_steps) / std::max(1e-9, wall_time);
-  summary.results = {{"particles", static_cast<double>(particles_.n_owned)},
+  summary.results = {{"particles", static_cast<double>(n_particles_)},
                      {"steps", static_cast<double>(work.steps)},
                      {"end_time", time_},
                      {"list_builds", static_cast<double>(work.list_builds)},
@@ -219,9 +287,11 @@ void Solver<D>::write_summary(double wall_time) {
                      {"most_without_donors", static_cast<double>(most_without_donors_)},
                      {"pairs_per_second", pairs_per_second},
                      {"particle_steps_per_second", particle_steps_per_second}};
+  if (ranks_) add_ranks(summary);
   summary.notes = {{"scene", config_.scene.title},
                    {"digest", config_.scene.digest},
                    {"stopped because", stopped_because_}};
+  if (ranks_ && ranks_->rank() != 0) return;
   summary.write(folder_ + "/summary.json");
   std::ostringstream text;
   text << work.steps << " steps in " << wall_time << " s: " << particle_steps_per_second * 1e-3
@@ -232,6 +302,28 @@ void Solver<D>::write_summary(double wall_time) {
     log_.warn(
         std::to_string(work.mirrored_back) +
         " times a particle had crossed a symmetry plane by less than half a spacing and was mirrored back");
+}
+
+template <int D>
+void Solver<D>::add_ranks(support::Summary& summary) {
+  summary.ranks = ranks_->size();
+  const auto& halo = ranks_->halo();
+  const HaloTraffic& traffic = halo.traffic();
+  std::array<double, 6> most = {traffic.seconds,
+                                static_cast<double>(halo.size()),
+                                static_cast<double>(halo.n_neighbors()),
+                                static_cast<double>(particles_.n_owned),
+                                traffic.bytes,
+                                static_cast<double>(traffic.messages)};
+  std::array<double, 1> migrated = {static_cast<double>(ranks_->n_migrated())};
+  ranks_->take_largest(most.data(), most.size());
+  ranks_->take_sum(migrated.data(), migrated.size());
+  const char* names[] = {"halo_seconds",   "halo_particles", "halo_neighbors",
+                         "rank_particles", "halo_bytes",     "halo_messages"};
+  for (std::size_t k = 0; k < most.size(); ++k) summary.results[std::string(names[k]) + "_most"] = most[k];
+  summary.results["halo_refreshes"] = static_cast<double>(traffic.refreshes);
+  summary.results["migrated"] = migrated[0];
+  summary.results["bisections"] = static_cast<double>(ranks_->n_balanced());
 }
 
 template class Solver<2>;

@@ -12,6 +12,8 @@
 #include "io/output.hpp"
 #include "littoral/coupler/partner.hpp"
 #include "littoral/support/log.hpp"
+#include "littoral/support/summary.hpp"
+#include "parallel/ranks_mpi.hpp"
 #include "particles/particles.hpp"
 #include "physics/dynamics.hpp"
 
@@ -22,10 +24,11 @@ template <int D>
 class Solver {
  public:
   /// Places the particles, or reads them from the checkpoint `restart` (empty: none). folder: OUT/sph;
-  /// partner: the grid side, or null.
+  /// partner: the grid side, or null; comm: the ranks of this program, which all make it together.
   /// throws ConfigError (no particle at all, unsuitable domain, checkpoint of another scene), IoError
   Solver(const RunConfig& config, const std::string& folder, support::Log& log,
-         std::unique_ptr<coupler::FvPartner> partner, const std::string& restart = "");
+         std::unique_ptr<coupler::FvPartner> partner, const std::string& restart = "",
+         MPI_Comm comm = MPI_COMM_SELF);
 
   /// To the end of the scene's time. throws StabilityError, IoError, CouplingError
   void run();
@@ -41,17 +44,22 @@ class Solver {
   void advance(const coupler::Agreement& agreement);
   void write(const coupler::Agreement& agreement);
   void place_particles();
+  void read_particles(const std::string& restart);
   void warn_of_layers();
   void write_checkpoint();
   StepHooks<D>* hooks();
   typename Output<D>::Moment moment(const coupler::Window& window) const;
   void write_summary(double wall_time);
-  std::string describe() const;
+  WorkCount work_of_all(std::vector<double>& seconds);
+  void add_ranks(support::Summary& summary);
+  std::int64_t n_particles();  ///< of all ranks; collective
+  std::string describe();
 
   RunConfig config_;
   std::string folder_;
   support::Log& log_;
   std::unique_ptr<coupler::FvPartner> partner_;
+  std::unique_ptr<MpiRanks<D>> ranks_;  // null on one rank
   Particles<D> particles_;
   Dynamics<D> dynamics_;
   std::optional<WindowDriver<D>> driver_;  // of the coupling, with a partner only
@@ -60,6 +68,7 @@ class Solver {
   Output<D> output_;
   double time_ = 0.0;                    // [s]
   std::int64_t window_ = 0;              // of the next window
+  std::int64_t n_particles_ = 0;         // of all ranks, at the end of the last window
   double last_checkpoint_ = 0.0;         // [s]
   std::size_t most_without_donors_ = 0;  // particles of the layers, at the end of a window
   std::string stopped_because_;

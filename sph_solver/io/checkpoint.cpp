@@ -11,7 +11,7 @@ namespace littoral::sph {
 
 namespace {
 
-constexpr std::int64_t k_format = 1;
+constexpr std::int64_t k_format = 2;
 
 /// Columns are numbered in the order of the particles' own list, so that none can be forgotten here.
 std::string column_name(const char* group, std::size_t k) {
@@ -42,7 +42,8 @@ struct Writer {
 struct Reader {
   const support::CheckpointReader& file;
   const std::string& path;
-  std::size_t n;
+  std::size_t n;            // in the file
+  std::size_t first, last;  // taken
   const char* group;
   std::size_t k = 0;
 
@@ -61,6 +62,8 @@ struct Reader {
     if (column.size() != n)
       throw IoError(path + ": column " + name + " holds " + std::to_string(column.size()) + " values for " +
                     std::to_string(n) + " particles; the file is damaged.");
+    column = std::vector<T>(column.begin() + static_cast<std::ptrdiff_t>(first),
+                            column.begin() + static_cast<std::ptrdiff_t>(last));
   }
 };
 
@@ -79,6 +82,11 @@ void write_checkpoint(const std::string& path, const RunState& run, const Partic
   file.put("last_fields", run.last_fields);
   file.put("most_acceleration", run.most_acceleration);
   file.put("n_owned", static_cast<std::int64_t>(particles.n_owned));
+  file.put("rank_counts", run.rank_counts.empty()
+                              ? std::vector<std::int64_t>{static_cast<std::int64_t>(particles.n_owned)}
+                              : run.rank_counts);
+  file.put("regions", run.regions);
+  file.put("load", run.load);
   file.put("next_id", particles.next_id);
   auto& columns =
       const_cast<Particles<D>&>(particles);  // the list of columns is not const; they are only read
@@ -111,7 +119,19 @@ RunState read_run_state(const support::CheckpointReader& file, const std::string
   run.window = file.integer("window");
   run.last_fields = file.number("last_fields");
   run.most_acceleration = file.number("most_acceleration");
+  run.rank_counts = file.int64s("rank_counts");
+  run.regions = file.doubles("regions");
+  run.load = file.number("load");
   return run;
+}
+
+/// First particle of a rank, and the one behind its last: the same for all its columns.
+std::size_t share_begin(const RunState& run, std::size_t n, const CheckpointShare& share, int rank) {
+  if (run.rank_counts.size() != static_cast<std::size_t>(share.size))
+    return n * static_cast<std::size_t>(rank) / static_cast<std::size_t>(share.size);
+  std::int64_t begin = 0;
+  for (int r = 0; r < rank; ++r) begin += run.rank_counts[static_cast<std::size_t>(r)];
+  return static_cast<std::size_t>(begin);
 }
 
 }  // namespace
@@ -122,7 +142,7 @@ RunState read_run_state(const std::string& path, const support::Scene& scene) {
 
 template <int D>
 RunState read_checkpoint(const std::string& path, const support::Scene& scene, Particles<D>& particles,
-                         ParticleExchange<D>* exchange) {
+                         ParticleExchange<D>* exchange, const CheckpointShare& share) {
   const support::CheckpointReader file(path);
   const RunState run = read_run_state(file, path, scene);
   if (file.integer("dimension") != D)
@@ -131,10 +151,15 @@ RunState read_checkpoint(const std::string& path, const support::Scene& scene, P
     throw ConfigError(path + ": written " + (exchange == nullptr ? "with" : "without") +
                       " a partner, this run has " + (exchange == nullptr ? "none." : "one."));
   particles = Particles<D>();
-  particles.n_owned = static_cast<std::size_t>(file.integer("n_owned"));
+  const auto n = static_cast<std::size_t>(file.integer("n_owned"));
+  const std::size_t first = share_begin(run, n, share, share.rank),
+                    last = share_begin(run, n, share, share.rank + 1);
+  if (first > last || last > n)
+    throw IoError(path + ": its ranks' counts do not add up; the file is damaged.");
+  particles.n_owned = last - first;
   particles.next_id = file.integer("next_id");
-  particles.for_each_shared_column(Reader{file, path, particles.n_owned, "state"});
-  particles.for_each_owned_column(Reader{file, path, particles.n_owned, "owned"});
+  particles.for_each_shared_column(Reader{file, path, n, first, last, "state"});
+  particles.for_each_owned_column(Reader{file, path, n, first, last, "owned"});
   if (exchange != nullptr) exchange->unpack(file.doubles("exchange_masses"), file.int64s("exchange_counts"));
   return run;
 }
@@ -150,8 +175,8 @@ template void write_checkpoint<2>(const std::string&, const RunState&, const Par
 template void write_checkpoint<3>(const std::string&, const RunState&, const Particles<3>&,
                                   const ParticleExchange<3>*);
 template RunState read_checkpoint<2>(const std::string&, const support::Scene&, Particles<2>&,
-                                     ParticleExchange<2>*);
+                                     ParticleExchange<2>*, const CheckpointShare&);
 template RunState read_checkpoint<3>(const std::string&, const support::Scene&, Particles<3>&,
-                                     ParticleExchange<3>*);
+                                     ParticleExchange<3>*, const CheckpointShare&);
 
 }  // namespace littoral::sph

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "coupling/particle_exchange.hpp"
 #include "littoral/support/scene.hpp"
@@ -18,12 +19,22 @@ struct RunState {
       0.0;  // [m/s^2] of the last right-hand side: the next step's length depends on it
   std::string scene_title;
   std::string scene_digest;
+  std::vector<std::int64_t> rank_counts;  // particles of each rank, in the order of the file
+  std::vector<double> regions;            // Regions::pack(); empty for one rank
+  double load = 1.0;                      // MpiRanks::load()
 };
 
-/// Everything a run needs to go on bit for bit: the particles in their present order with ids and hints, the
-/// face elements' masses and the ledger (exchange may be null: no coupling). Neighbour lists are not stored;
-/// the running program makes them anew after a checkpoint, as the restarted one does.
-/// throws IoError (disk full, no permission)
+/// The part of a checkpoint's particles that a rank takes: those it had, if there are as many ranks as then,
+/// else an even share.
+struct CheckpointShare {
+  int rank = 0;
+  int size = 1;
+};
+
+/// Everything a run needs to go on bit for bit: the particles of all ranks in their present order with ids,
+/// the face elements' masses and the ledger (exchange may be null: no coupling). Neighbour lists are not
+/// stored; the running program makes them anew after a checkpoint, as the restarted one does. throws IoError
+/// (disk full, no permission)
 template <int D>
 void write_checkpoint(const std::string& path, const RunState& run, const Particles<D>& particles,
                       const ParticleExchange<D>* exchange);
@@ -35,7 +46,7 @@ RunState read_run_state(const std::string& path, const support::Scene& scene);
 /// throws IoError: missing, damaged, of the other dimension; ConfigError: of another scene (names both)
 template <int D>
 RunState read_checkpoint(const std::string& path, const support::Scene& scene, Particles<D>& particles,
-                         ParticleExchange<D>* exchange);
+                         ParticleExchange<D>* exchange, const CheckpointShare& share = {});
 
 /// OUT/sph/checkpoint_000120.h5
 std::string checkpoint_path(const std::string& folder, std::int64_t window);

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 
-#include "io/energies.hpp"
 #include "io/gauges.hpp"
+#include "io/gauges_mpi.hpp"
 #include "littoral/support/due.hpp"
 #include "littoral/support/timers.hpp"
+#include "parallel/gather_mpi.hpp"
 
 namespace littoral::sph {
 namespace {
@@ -87,13 +88,16 @@ struct Stopwatch {
 }  // namespace
 
 template <int D>
-Output<D>::Output(const std::string& folder, const RunConfig& config, const std::optional<RunState>& restart)
+Output<D>::Output(const std::string& folder, const RunConfig& config, const std::optional<RunState>& restart,
+                  MpiRanks<D>* ranks)
     : config_(config),
+      ranks_(ranks),
       gravity_(numerics_of<D>(config).gravity),
-      scalars_(series(folder + "/scalars.csv", scalar_columns(), restart,
-                      "SI units; in 2-D per metre of width; seconds_: wall time so far")),
-      fields_(folder, "particles", restart.has_value(), restart ? restart->time : 0.0),
       last_fields_(restart ? restart->last_fields : 0.0) {
+  if (ranks_ != nullptr && ranks_->rank() != 0) return;
+  scalars_.emplace(series(folder + "/scalars.csv", scalar_columns(), restart,
+                          "SI units; in 2-D per metre of width; seconds_: wall time so far"));
+  fields_.emplace(folder, "particles", restart.has_value(), restart ? restart->time : 0.0);
   if (!config.sph.gauges.empty())
     gauges_.emplace(
         series(folder + "/gauges.csv", with_time(gauge_columns(config.sph.gauges, D)), restart, ""));
@@ -105,10 +109,41 @@ bool Output<D>::fields_due(double time) const {
 }
 
 template <int D>
+void Output<D>::add_up(Totals& sum, LayerCount& layers) const {
+  std::array<double, 7> parts = {sum.kinetic,
+                                 sum.potential,
+                                 sum.mass,
+                                 static_cast<double>(sum.n),
+                                 static_cast<double>(layers.blending),
+                                 static_cast<double>(layers.driven),
+                                 static_cast<double>(layers.unreached)};
+  ranks_->take_sum(parts.data(), parts.size());
+  ranks_->take_largest(&sum.speed, 1);
+  sum.kinetic = parts[0], sum.potential = parts[1], sum.mass = parts[2];
+  sum.n = static_cast<std::size_t>(parts[3]);
+  layers = {static_cast<std::size_t>(parts[4]), static_cast<std::size_t>(parts[5]),
+            static_cast<std::size_t>(parts[6])};
+}
+
+template <int D>
+std::vector<double> Output<D>::gauge_row(const Particles<D>& particles,
+                                         const NeighborList<D>& neighbors) const {
+  const auto& gauges = config_.sph.gauges;
+  if (gauges.empty()) return {};
+  if (ranks_ == nullptr) return gauge_values(gauges, particles, neighbors, config_.sph.spacing);
+  return gauge_values_on_root(gauges, particles, domain_of<D>(config_), neighbors, config_.sph.spacing,
+                              ranks_->comm());
+}
+
+template <int D>
 void Output<D>::write_rows(const Moment& now, const Particles<D>& particles, const Dynamics<D>& dynamics,
                            const Layers<D>& layers) {
   const Stopwatch watch{seconds_};
-  const Totals sum = totals<D>(particles, gravity_, layers);
+  Totals sum = totals<D>(particles, gravity_, layers);
+  LayerCount in_layers = now.layers;
+  if (ranks_ != nullptr) add_up(sum, in_layers);
+  auto gauges = gauge_row(particles, dynamics.neighbors());
+  if (!scalars_) return;
   const auto& ledger = now.ledger;
   std::vector<double> row = {now.time,
                              now.dt,
@@ -129,25 +164,34 @@ void Output<D>::write_rows(const Moment& now, const Particles<D>& particles, con
                              ledger.defect,
                              static_cast<double>(now.exchanged.removed_crossing),
                              static_cast<double>(now.exchanged.removed_nearest),
-                             static_cast<double>(now.layers.blending),
-                             static_cast<double>(now.layers.driven),
-                             static_cast<double>(now.layers.unreached)};
+                             static_cast<double>(in_layers.blending),
+                             static_cast<double>(in_layers.driven),
+                             static_cast<double>(in_layers.unreached)};
   for (std::size_t phase = 0; phase < k_phase_names.size(); ++phase) row.push_back(dynamics.seconds()[phase]);
   row.insert(row.end(), {seconds_, now.waited});
-  scalars_.row(row);
+  scalars_->row(row);
   if (!gauges_) return;
-  auto values = gauge_values(config_.sph.gauges, particles, dynamics.neighbors(), config_.sph.spacing);
-  values.insert(values.begin(), now.time);
-  gauges_->row(values);
+  gauges.insert(gauges.begin(), now.time);
+  gauges_->row(gauges);
 }
 
 template <int D>
 void Output<D>::write_fields(double time, const Particles<D>& particles) {
   const Stopwatch watch{seconds_};
+  if (ranks_ == nullptr) {
+    write_points(time, particles);
+  } else {
+    const Particles<D> all = gather_on_root(particles, ranks_->comm());
+    if (fields_) write_points(time, all);
+  }
+  last_fields_ = time;
+}
+
+template <int D>
+void Output<D>::write_points(double time, const Particles<D>& particles) {
   std::vector<support::OutputField> fields;
   for (const auto& name : config_.sph.fields) fields.push_back(field(name, particles));
-  fields_.write_points(time, field<D>("position", particles).values, fields);
-  last_fields_ = time;
+  fields_->write_points(time, field<D>("position", particles).values, fields);
 }
 
 template class Output<2>;

@@ -9,8 +9,10 @@
 #include "coupling/particle_exchange.hpp"
 #include "coupling/zones.hpp"
 #include "io/checkpoint.hpp"
+#include "io/energies.hpp"
 #include "littoral/coupler/partner.hpp"
 #include "littoral/support/series.hpp"
+#include "parallel/ranks_mpi.hpp"
 #include "particles/particles.hpp"
 #include "physics/dynamics.hpp"
 
@@ -20,9 +22,10 @@ namespace littoral::sph {
 template <int D>
 class Output {
  public:
-  /// folder: OUT/sph; restart: where the run goes on, or absent. Rows later than that are cut off.
-  /// throws IoError
-  Output(const std::string& folder, const RunConfig& config, const std::optional<RunState>& restart = {});
+  /// folder: OUT/sph; restart: where the run goes on, or absent. Rows later than that are cut off. ranks:
+  /// null on one rank; else rank 0 writes for all, and every write is collective. throws IoError
+  Output(const std::string& folder, const RunConfig& config, const std::optional<RunState>& restart = {},
+         MpiRanks<D>* ranks = nullptr);
 
   /// True if a field is due at `time`.
   bool fields_due(double time) const;
@@ -34,7 +37,7 @@ class Output {
     double waited = 0.0;  // wall time spent waiting for the partner so far [s]
     coupler::Ledger ledger;
     ExchangeCounts exchanged;  // by cause, since the start
-    LayerCount layers;         // as the last stage found them
+    LayerCount layers;         // as the last stage found them on this rank
   };
   /// pre: copies and lists current (Dynamics::prepare)
   void write_rows(const Moment& now, const Particles<D>& particles, const Dynamics<D>& dynamics,
@@ -49,11 +52,19 @@ class Output {
   double seconds() const { return seconds_; }          ///< wall time spent writing so far [s]
 
  private:
+  /// Of all ranks, on every rank.
+  void add_up(Totals& sum, LayerCount& layers) const;
+  void write_points(double time, const Particles<D>& particles);
+  /// Values of the gauges, on the rank that writes.
+  std::vector<double> gauge_row(const Particles<D>& particles, const NeighborList<D>& neighbors) const;
+
   RunConfig config_;
+  MpiRanks<D>* ranks_;
   std::array<double, D> gravity_{};
-  support::CsvSeries scalars_;
+  // of the rank that writes
+  std::optional<support::CsvSeries> scalars_;
   std::optional<support::CsvSeries> gauges_;
-  support::FieldSeries fields_;
+  std::optional<support::FieldSeries> fields_;
   double last_fields_ = 0.0;
   double seconds_ = 0.0;
 };

@@ -10,10 +10,7 @@ constexpr double k_cells_at_least = 4096.0;
 }  // namespace
 
 template <int D>
-void CellGrid<D>::bin(const Columns& x, std::size_t n, double side) {
-  order_.resize(n);
-  cell_of_.resize(n);
-  std::array<double, D> upper{};
+void CellGrid<D>::find_bounds(const Columns& x, std::size_t n) {
   for (std::size_t d = 0; d < D; ++d) {
     double low = n > 0 ? x[d][0] : 0.0, high = low;
     const double* column = x[d].data();
@@ -24,21 +21,39 @@ void CellGrid<D>::bin(const Columns& x, std::size_t n, double side) {
       high = std::max(high, column[i]);
     }
     lower_[d] = low;
-    upper[d] = high;
+    upper_[d] = high;
   }
+}
 
-  const double most = std::max(k_cells_at_least, k_cells_per_point * static_cast<double>(n));
-  side_ = side;
+template <int D>
+double suitable_cell_side(const std::array<double, D>& lower, const std::array<double, D>& upper, double n,
+                          double side) {
+  const double most = std::max(k_cells_at_least, k_cells_per_point * n);
   for (;;) {
     double cells = 1.0;
-    for (std::size_t d = 0; d < D; ++d) cells *= std::floor((upper[d] - lower_[d]) / side_) + 1.0;
-    if (cells <= most) break;
-    side_ *= std::max(1.05, std::pow(cells / most, 1.0 / D));
+    for (std::size_t d = 0; d < D; ++d) cells *= std::floor(std::max(0.0, upper[d] - lower[d]) / side) + 1.0;
+    if (!(cells > most)) return side;
+    side *= std::max(1.05, std::pow(cells / most, 1.0 / D));
   }
+}
+
+template <int D>
+void CellGrid<D>::bin(const Columns& x, std::size_t n, double side) {
+  find_bounds(x, n);
+  bin_exactly(x, n, suitable_cell_side<D>(lower_, upper_, static_cast<double>(n), side));
+}
+
+template <int D>
+void CellGrid<D>::bin_exactly(const Columns& x, std::size_t n, double side) {
+  find_bounds(x, n);
+  order_.resize(n);
+  cell_of_.resize(n);
+  side_ = side;
   inv_side_ = 1.0 / side_;
   std::size_t cells = 1;
   for (std::size_t d = 0; d < D; ++d) {
-    n_[d] = static_cast<std::ptrdiff_t>((upper[d] - lower_[d]) * inv_side_) + 1;
+    first_[d] = std::floor(lower_[d] * inv_side_);
+    n_[d] = static_cast<std::ptrdiff_t>(std::floor(upper_[d] * inv_side_) - first_[d]) + 1;
     cells *= static_cast<std::size_t>(n_[d]);
   }
 
@@ -47,8 +62,8 @@ void CellGrid<D>::bin(const Columns& x, std::size_t n, double side) {
   for (std::ptrdiff_t i = 0; i < count; ++i) {
     std::ptrdiff_t cell = 0;
     for (std::size_t d = 0; d < D; ++d) {
-      const auto k = static_cast<std::ptrdiff_t>((x[d][static_cast<std::size_t>(i)] - lower_[d]) * inv_side_);
-      cell = cell * n_[d] + std::clamp<std::ptrdiff_t>(k, 0, n_[d] - 1);
+      const double k = std::floor(x[d][static_cast<std::size_t>(i)] * inv_side_) - first_[d];
+      cell = cell * n_[d] + std::clamp<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(k), 0, n_[d] - 1);
     }
     cell_of_[static_cast<std::size_t>(i)] = static_cast<std::int32_t>(cell);
   }
@@ -63,14 +78,41 @@ void CellGrid<D>::bin(const Columns& x, std::size_t n, double side) {
 }
 
 template <int D>
+void CellGrid<D>::sort_cells(const Columns& x, const std::vector<std::int64_t>& keys) {
+  const auto before = [&x, &keys](std::int32_t a, std::int32_t b) {
+    const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
+    if (keys[i] != keys[j]) return keys[i] < keys[j];
+    for (std::size_t d = 0; d < D; ++d)
+      if (x[d][i] != x[d][j]) return x[d][i] < x[d][j];
+    return false;
+  };
+  const auto n_cells = static_cast<std::ptrdiff_t>(start_.size()) - 1;
+#pragma omp parallel for schedule(static)
+  for (std::ptrdiff_t c = 0; c < n_cells; ++c) {  // a handful of points each, mostly in order: insertion sort
+    const std::size_t begin = start_[static_cast<std::size_t>(c)],
+                      end = start_[static_cast<std::size_t>(c) + 1];
+    for (std::size_t k = begin + 1; k < end; ++k) {
+      const std::int32_t point = order_[k];
+      std::size_t place = k;
+      for (; place > begin && before(point, order_[place - 1]); --place) order_[place] = order_[place - 1];
+      order_[place] = point;
+    }
+  }
+}
+
+template <int D>
 std::ptrdiff_t CellGrid<D>::clamped_cell(double x, std::size_t d, int end) const {
   // first cell of a range (end 0): below the grid 0, above it n; last cell (end -1): below -1, above n-1
-  const double k = std::floor((x - lower_[d]) * inv_side_);
+  const double k = std::floor(x * inv_side_) - first_[d];
   const double low = end == 0 ? 0.0 : -1.0;
   const double high = static_cast<double>(n_[d]) + end;
   return static_cast<std::ptrdiff_t>(std::clamp(k, low, high));
 }
 
+template double suitable_cell_side<2>(const std::array<double, 2>&, const std::array<double, 2>&, double,
+                                      double);
+template double suitable_cell_side<3>(const std::array<double, 3>&, const std::array<double, 3>&, double,
+                                      double);
 template class CellGrid<2>;
 template class CellGrid<3>;
 

@@ -7,8 +7,16 @@
 
 namespace littoral::sph {
 
+/// The cell side, `side` or more [m], at which a box with n points in it has no more than a few cells a
+/// point.
+template <int D>
+double suitable_cell_side(const std::array<double, D>& lower, const std::array<double, D>& upper, double n,
+                          double side);
+
 /// Points sorted into the cells of a uniform grid that just contains them. Cells are numbered with the last
-/// direction fastest, so the points of neighbouring cells along it lie side by side in `order`.
+/// direction fastest, so the points of neighbouring cells along it lie side by side in `order`. Their sides
+/// lie at multiples of the cell side from the origin of space, wherever the points are: grids of the same
+/// side cut space alike, on every rank.
 template <int D>
 class CellGrid {
  public:
@@ -17,6 +25,10 @@ class CellGrid {
   /// Sorts the first n points. `side` is the least cell side [m]; cells grow where a few far points would
   /// make many empty ones. The order inside a cell is that of the input: independent of the threads.
   void bin(const Columns& x, std::size_t n, double side);
+  /// The same with cells of exactly this side.
+  void bin_exactly(const Columns& x, std::size_t n, double side);
+  /// Puts the points of each cell into the order of their keys, equal keys into that of their coordinates.
+  void sort_cells(const Columns& x, const std::vector<std::int64_t>& keys);
 
   const std::vector<std::int32_t>& order() const { return order_; }  ///< points, cell by cell
   double side() const { return side_; }
@@ -50,7 +62,10 @@ class CellGrid {
   /// Cell of a coordinate, moved into the grid; entirely outside it the range first..last comes out empty.
   std::ptrdiff_t clamped_cell(double x, std::size_t d, int end) const;
 
-  std::array<double, D> lower_{};
+  void find_bounds(const Columns& x, std::size_t n);
+
+  std::array<double, D> lower_{}, upper_{};  // [m] of the points
+  std::array<double, D> first_{};            // cell of space in which the grid begins
   std::array<std::ptrdiff_t, D> n_{};
   double side_ = 0.0;
   double inv_side_ = 0.0;

@@ -31,17 +31,30 @@ std::size_t append_within(const std::array<std::vector<double>, D>& sorted,
 
 template <int D>
 const std::vector<std::int32_t>& NeighborList<D>::space_order(const Particles<D>& particles) {
-  owned_grid_.bin(particles.x, particles.n_owned, reach() / k_cells_per_reach);
+  owned_grid_.bin(particles.x, particles.n_owned, least_cell_side());
+  owned_grid_.sort_cells(particles.x, particles.id);
   return owned_grid_.order();
 }
 
 template <int D>
+double NeighborList<D>::least_cell_side() const {
+  return reach() / k_cells_per_reach;
+}
+
+template <int D>
 void NeighborList<D>::build(const Particles<D>& particles) {
+  grid_.bin(particles.x, particles.size(), least_cell_side());
+  build(particles, grid_.side());
+}
+
+template <int D>
+void NeighborList<D>::build(const Particles<D>& particles, double cell_side) {
   const std::size_t n_all = particles.size();
   const std::size_t n = particles.n_owned;
   revision_ = particles.revision;
   built_ = true;
-  grid_.bin(particles.x, n_all, reach() / k_cells_per_reach);
+  grid_.bin_exactly(particles.x, n_all, cell_side);
+  grid_.sort_cells(particles.x, particles.id);
   const auto& order = grid_.order();
   for (std::size_t d = 0; d < D; ++d) {
     x_sorted_[d].resize(n_all);

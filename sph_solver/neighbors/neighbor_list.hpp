@@ -12,8 +12,9 @@ namespace littoral::sph {
 
 /// Neighbours of every owned particle within the kernel radius plus a skin, itself excluded, as one
 /// compressed row per particle. As long as nobody has moved further than half the skin since the lists were
-/// built they hold every pair within the kernel radius; pairs in the skin see a kernel of zero. Rows and
-/// their order do not depend on the number of threads.
+/// built they hold every pair within the kernel radius; pairs in the skin see a kernel of zero. A row runs
+/// from cell to cell of a grid fixed in space and by id in a cell: the same on any number of threads and
+/// ranks, as long as these use the same cell side.
 template <int D>
 class NeighborList {
  public:
@@ -24,8 +25,11 @@ class NeighborList {
 
   /// Order that sorts the owned particles by cell, for Particles::permute. Does not touch the lists.
   const std::vector<std::int32_t>& space_order(const Particles<D>& particles);
-  /// From the positions of owned particles and copies.
+  /// From the positions of owned particles and copies. cell_side [m]: the least one or more, the same on all
+  /// ranks; without: what suits the particles here
   void build(const Particles<D>& particles);
+  void build(const Particles<D>& particles, double cell_side);
+  double least_cell_side() const;  ///< [m]
   /// True if particles were added, removed or moved by more than half the skin since build(), or will be once
   /// they have gone on for `ahead` [s] at their velocity.
   bool outdated(const Particles<D>& particles, double ahead = 0.0) const;

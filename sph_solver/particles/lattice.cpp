@@ -8,7 +8,8 @@ namespace littoral::sph {
 
 template <int D>
 void fill_lattice(const std::array<double, D>& lower, const std::array<double, D>& upper, double spacing,
-                  const support::Scene& scene, const LinearEos& eos, Particles<D>& particles) {
+                  const support::Scene& scene, const LinearEos& eos, Particles<D>& particles,
+                  const LatticeShare& share) {
   constexpr double k_round_off = 1e-9;  // a row whose centre lies on the upper face to round-off stays out
   const auto& start = scene.initial;
   std::array<long, D> n;
@@ -17,6 +18,7 @@ void fill_lattice(const std::array<double, D>& lower, const std::array<double, D
     n[d] = std::max(0L, std::lround(std::floor((upper[d] - lower[d]) / spacing + 0.5 - k_round_off)));
     total *= n[d];
   }
+  const long first = total * share.rank / share.size, last = total * (share.rank + 1) / share.size;
   for (long place = 0; place < total; ++place) {
     NewParticle<D> born;
     std::array<double, 3> x{};
@@ -26,6 +28,10 @@ void fill_lattice(const std::array<double, D>& lower, const std::array<double, D
       x[scene_axis<D>(d)] = born.x[d];
     }
     if (start.surface && !((*start.surface)(x[0], x[1], x[2], 0.0) < 0.0)) continue;
+    if (place < first || place >= last) {
+      ++particles.next_id;
+      continue;
+    }
     const std::array<const support::Formula*, 3> velocity = {&start.u, &start.v, &start.w};
     for (std::size_t d = 0; d < D; ++d) born.u[d] = (*velocity[scene_axis<D>(d)])(x[0], x[1], x[2], 0.0);
     born.p = start.p(x[0], x[1], x[2], 0.0);
@@ -53,8 +59,8 @@ void set_start_states(const support::Scene& scene, const LinearEos& eos, Particl
 template void set_start_states<2>(const support::Scene&, const LinearEos&, Particles<2>&);
 template void set_start_states<3>(const support::Scene&, const LinearEos&, Particles<3>&);
 template void fill_lattice<2>(const std::array<double, 2>&, const std::array<double, 2>&, double,
-                              const support::Scene&, const LinearEos&, Particles<2>&);
+                              const support::Scene&, const LinearEos&, Particles<2>&, const LatticeShare&);
 template void fill_lattice<3>(const std::array<double, 3>&, const std::array<double, 3>&, double,
-                              const support::Scene&, const LinearEos&, Particles<3>&);
+                              const support::Scene&, const LinearEos&, Particles<3>&, const LatticeShare&);
 
 }  // namespace littoral::sph

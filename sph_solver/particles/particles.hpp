@@ -40,18 +40,19 @@ struct Particles {
   Column m;                 // [kg] (kg/m in 2-D), constant over a particle's life
   Column rho;               // [kg/m^D] = m / V
   Column p;                 // [Pa] = c^2 (rho - rho0) + p0
+  std::vector<std::int64_t>
+      id;  // never reused; a copy has its source's. Sums run in an order made of places and ids
 
   // owned only
   std::vector<Zone> zone;
   std::vector<SurfaceFlag> surface;
   std::array<Column, D> normal;  // unit, out of the water, where surface != none
   std::array<Column, D> shift;   // [m/s] velocity of (14), added to u when positions move
-  std::vector<std::int64_t> id;  // never reused
   /// Memory of the last search among the partner's donor cells, -1: none. Travels with the particle and is
   /// part of a checkpoint, because the walk from another hint may end in a neighbouring, equally good cell.
   std::vector<std::int64_t> donor_hint;
 
-  std::int64_t next_id = 0;    // of the next particle born on this rank
+  std::int64_t next_id = 0;    // of the next particle born: the same on all ranks
   std::uint64_t revision = 0;  // counts changes of who is owned and where: lists of another revision are void
 
   std::size_t size() const { return n_owned + n_ghost; }
@@ -62,6 +63,7 @@ struct Particles {
     for (auto& column : x) f(column);
     for (auto& column : u) f(column);
     for (Column* column : {&V, &m, &rho, &p}) f(*column);
+    f(id);
   }
   /// Calls f(column) for every column that only owned particles have.
   template <class F>
@@ -70,7 +72,6 @@ struct Particles {
     f(surface);
     for (auto& column : normal) f(column);
     for (auto& column : shift) f(column);
-    f(id);
     f(donor_hint);
   }
 

@@ -24,9 +24,10 @@ constexpr double k_mirror_tolerance = 0.5;  // of dx: how far through a symmetry
 }  // namespace
 
 template <int D>
-Dynamics<D>::Dynamics(const Numerics<D>& numerics, const DomainBox<D>& box)
+Dynamics<D>::Dynamics(const Numerics<D>& numerics, const DomainBox<D>& box, OtherRanks<D>* others)
     : numerics_(numerics),
-      ghosts_(box),
+      others_(others),
+      ghosts_(box, others),
       neighbors_(numerics.kernel_radius, numerics.skin),
       shifting_(numerics.reference_velocity, numerics.spacing) {
   if (numerics.precision == Precision::mixed) rows_.template emplace<PairRows<D, float>>();
@@ -49,10 +50,41 @@ double Dynamics<D>::stable_time_step() const {
   return dt;
 }
 
+/// Lists are made anew on all ranks at once, when one of them needs it.
+template <int D>
+bool Dynamics<D>::outdated(const Particles<D>& particles, double ahead) {
+  const bool here = neighbors_.outdated(particles, ahead);
+  return others_ != nullptr ? others_->any(here) : here;
+}
+
+namespace {
+
+/// Side of the lists' cells that suits all particles of all ranks.
+template <int D>
+double cell_side(const Particles<D>& particles, double least, OtherRanks<D>* others) {
+  std::array<double, 2 * D> bounds;  // - lower, upper
+  bounds.fill(-std::numeric_limits<double>::infinity());
+  for (std::size_t d = 0; d < D; ++d)
+    for (std::size_t i = 0; i < particles.n_owned; ++i) {
+      bounds[d] = std::max(bounds[d], -particles.x[d][i]);
+      bounds[D + d] = std::max(bounds[D + d], particles.x[d][i]);
+    }
+  auto n = static_cast<double>(particles.n_owned);
+  if (others != nullptr) {
+    others->take_largest(bounds.data(), bounds.size());
+    others->take_sum(&n, 1);
+  }
+  std::array<double, D> lower, upper;
+  for (std::size_t d = 0; d < D; ++d) lower[d] = -bounds[d], upper[d] = bounds[D + d];
+  return suitable_cell_side<D>(lower, upper, n, least);
+}
+
+}  // namespace
+
 template <int D>
 void Dynamics<D>::build_lists(Particles<D>& particles) {
   ghosts_.create(particles, neighbors_.reach());
-  neighbors_.build(particles);
+  neighbors_.build(particles, cell_side(particles, neighbors_.least_cell_side(), others_));
   ++work_.list_builds;
 }
 
@@ -62,9 +94,10 @@ void Dynamics<D>::prepare(Particles<D>& particles, double t, StepHooks<D>* hooks
     const PhaseSeconds::Scope scope(seconds_, Phase::lists);
     // Lists that would become outdated in the middle of the step are built now: only here can particles that
     // left through a periodic face be brought back, so that none strays further than half the skin.
-    if (neighbors_.outdated(particles, dt)) {
+    if (outdated(particles, dt)) {
       work_.mirrored_back +=
           static_cast<std::int64_t>(ghosts_.bring_back(particles, k_mirror_tolerance * numerics_.spacing, t));
+      if (others_ != nullptr) others_->migrate(particles);
       particles.permute(neighbors_.space_order(particles));
       build_lists(particles);
       surface_current_ = false;
@@ -105,7 +138,7 @@ void Dynamics<D>::right_hand_side(Particles<D>& particles, double t) {
   {
     const PhaseSeconds::Scope scope(seconds_, Phase::lists);
     ghosts_.refresh(particles);
-    if (neighbors_.outdated(particles)) build_lists(particles);  // in the middle of a step: no sorting
+    if (outdated(particles, 0.0)) build_lists(particles);  // in the middle of a step: no sorting
   }
   std::visit([&](auto& rows) { pair_loops(particles, rows); }, rows_);
   const PhaseSeconds::Scope scope(seconds_, Phase::terms);
@@ -138,6 +171,7 @@ void Dynamics<D>::step(Particles<D>& particles, double t, double dt, StepHooks<D
     }
   }
   check(particles, t, dt);
+  if (others_ != nullptr) others_->take_largest(&most_acceleration_, 1);
   ++work_.steps;
   work_.particle_steps += static_cast<std::int64_t>(particles.n_owned);
   if (hooks != nullptr) {

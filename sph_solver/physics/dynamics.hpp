@@ -36,10 +36,11 @@ struct WorkCount {
 template <int D>
 class Dynamics {
  public:
-  Dynamics(const Numerics<D>& numerics, const DomainBox<D>& box);
+  /// others: the program's other ranks, which then make every step together; null: there are none
+  Dynamics(const Numerics<D>& numerics, const DomainBox<D>& box, OtherRanks<D>* others = nullptr);
 
   /// Largest stable step for the particles as they are (S11): (16), and a limit from the accelerations of the
-  /// last right-hand side.
+  /// last right-hand side. The same on all ranks
   double stable_time_step() const;
 
   /// One step from t to t + dt. hooks may be null.
@@ -66,6 +67,7 @@ class Dynamics {
   const Rate<D>& rate() const { return rate_; }
   const NeighborList<D>& neighbors() const { return neighbors_; }
   const Ghosts<D>& ghosts() const { return ghosts_; }
+  Ghosts<D>& ghosts() { return ghosts_; }
   const SurfaceDetection<D>& surface() const { return surface_; }
   const Numerics<D>& numerics() const { return numerics_; }
   const PhaseSeconds& seconds() const { return seconds_; }
@@ -73,6 +75,7 @@ class Dynamics {
   PhaseSeconds& seconds() { return seconds_; }
 
  private:
+  bool outdated(const Particles<D>& particles, double ahead);
   void build_lists(Particles<D>& particles);
   template <class Real>
   void pair_loops(const Particles<D>& particles, PairRows<D, Real>& rows);
@@ -81,6 +84,7 @@ class Dynamics {
   void check(const Particles<D>& particles, double t, double dt) const;
 
   Numerics<D> numerics_;
+  OtherRanks<D>* others_;
   Ghosts<D> ghosts_;
   NeighborList<D> neighbors_;
   std::variant<PairRows<D, double>, PairRows<D, float>> rows_;  // for numerics_.precision

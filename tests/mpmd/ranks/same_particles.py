@@ -1,0 +1,55 @@
+#!/usr/bin/python3
+"""same_particles.py ROWS A B [TOLERANCE]: two runs of sph_solver end with the same particles, by their ids, and the last
+ROWS rows of their series agree; relative to the largest value of a column, wall times apart."""
+
+import csv
+import pathlib
+import sys
+
+import h5py
+import numpy as np
+
+
+def last_fields(folder):
+    path = sorted(pathlib.Path(folder, "sph").glob("particles_*.h5"))[-1]
+    found = {}
+    with h5py.File(path) as file:
+        file.visititems(lambda name, item: found.update({name: item[()]}) if isinstance(item, h5py.Dataset) else None)
+    ids = next(values for name, values in found.items() if name.endswith("id"))
+    order = np.argsort(ids)
+    return {name: values[order] for name, values in found.items() if name != "vertices" and len(values) == len(ids)}
+
+
+def rows(folder, name, count):
+    with open(pathlib.Path(folder, "sph", name)) as file:
+        table = list(csv.reader(line for line in file if not line.startswith("#")))
+    kept = [k for k, column in enumerate(table[0]) if not column.startswith("seconds_")]
+    return np.array([[float(row[k]) for k in kept] for row in table[1:]])[-count:]
+
+
+def worst(one, two):
+    """Largest difference, a column's relative to its largest value; what is dry must be dry in both."""
+    if one.shape != two.shape or not np.array_equal(np.isnan(one), np.isnan(two)):
+        return np.inf
+    scale = np.nanmax(np.abs(one), axis=0)
+    return float(np.nanmax(np.abs(one - two) / np.where(scale > 0, scale, 1), initial=0.0))
+
+
+def main():
+    count, one, two = int(sys.argv[1]), sys.argv[2], sys.argv[3]
+    tolerance = float(sys.argv[4]) if len(sys.argv) > 4 else 0.0
+    a, b = last_fields(one), last_fields(two)
+    failed = a.keys() != b.keys() or len(a) < 3
+    for name in a:
+        difference = worst(a[name], b[name])
+        print(f"{name}: {difference:.3g}")
+        failed |= not difference <= tolerance
+    for name in ("scalars.csv", "gauges.csv"):
+        first, second = rows(one, name, count), rows(two, name, count)
+        difference = worst(first, second)
+        print(f"{name}: {difference:.3g} over {len(first)} rows")
+        failed |= not difference <= tolerance or len(first) != count
+    sys.exit(1 if failed else 0)
+
+
+main()
