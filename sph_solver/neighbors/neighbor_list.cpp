@@ -5,27 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "neighbors/append_within.hpp"
+
 namespace littoral::sph {
 namespace {
 
 constexpr double k_cells_per_reach = 2.0;  // five rows of half-size cells hold fewer strangers than three
-
-/// Appends to `row` those of sorted[begin, end) within `reach` of x, without branches. `row` must have room.
-template <int D>
-std::size_t append_within(const std::array<std::vector<double>, D>& sorted,
-                          const std::vector<std::int32_t>& order, const std::array<double, D>& x,
-                          double reach_squared, std::int32_t self, std::size_t begin, std::size_t end,
-                          std::int32_t* row) {
-  std::size_t n = 0;
-  for (std::size_t k = begin; k < end; ++k) {
-    double r2 = 0.0;
-    for (std::size_t d = 0; d < D; ++d) r2 += (sorted[d][k] - x[d]) * (sorted[d][k] - x[d]);
-    const std::int32_t j = order[k];
-    row[n] = j;
-    n += static_cast<std::size_t>(static_cast<int>(r2 < reach_squared) & static_cast<int>(j != self));
-  }
-  return n;
-}
+constexpr std::size_t k_spare = 16;        // a share of the lists gets 1/16 more than it needs
 
 }  // namespace
 
@@ -66,38 +52,56 @@ void NeighborList<D>::build(const Particles<D>& particles, double cell_side) {
     x_at_build_[d].assign(particles.x[d].begin(), particles.x[d].begin() + static_cast<std::ptrdiff_t>(n));
   }
 
-  // Each thread fills the rows of a contiguous share of the particles, then the shares are joined in order.
   start_.assign(n + 1, 0);
-  std::vector<std::vector<std::int32_t>> shares(static_cast<std::size_t>(omp_get_max_threads()));
+  std::size_t room = list_.capacity() / static_cast<std::size_t>(omp_get_max_threads());
+  for (std::size_t needed = fill(particles, room); needed > room; needed = fill(particles, room))
+    room = needed + needed / k_spare;
+}
+
+template <int D>
+std::size_t NeighborList<D>::fill(const Particles<D>& particles, std::size_t room) {
+  const std::size_t n = particles.n_owned;
+  const auto most_threads = static_cast<std::size_t>(omp_get_max_threads());
   const double reach_squared = reach() * reach();
+  const std::int32_t* order = grid_.order().data();
+  std::vector<std::size_t> filled(most_threads, 0), first(most_threads + 1, n);
+  list_.resize(room * most_threads);
 #pragma omp parallel
   {
     const auto thread = static_cast<std::size_t>(omp_get_thread_num());
     const auto threads = static_cast<std::size_t>(omp_get_num_threads());
     const std::size_t begin = n * thread / threads, end = n * (thread + 1) / threads;
-    auto& share = shares[thread];
-    share.resize(std::max<std::size_t>(4096, list_.size() / threads));
-    std::size_t filled = 0;
+    first[thread] = begin;
+    std::int32_t* const share = list_.data() + thread * room;
+    std::vector<std::int32_t> too_long;  // for rows that find no room: they are counted only
+    std::size_t used = 0;
     for (std::size_t i = begin; i < end; ++i) {
       std::array<double, D> x;
       for (std::size_t d = 0; d < D; ++d) x[d] = particles.x[d][i];
-      const std::size_t row = filled;
+      std::size_t candidates = k_append_room;
+      grid_.for_each_range(x, reach(), [&](std::size_t b, std::size_t e) { candidates += e - b; });
+      const bool fits = used + candidates <= room;
+      if (!fits) too_long.resize(std::max(too_long.size(), candidates));
+      std::int32_t* const row = fits ? share + used : too_long.data();
+      std::size_t length = 0;
       grid_.for_each_range(x, reach(), [&](std::size_t b, std::size_t e) {
-        if (filled + (e - b) > share.size()) share.resize(2 * (filled + (e - b)));
-        filled += append_within<D>(x_sorted_, order, x, reach_squared, static_cast<std::int32_t>(i), b, e,
-                                   share.data() + filled);
+        length += append_within<D>(x_sorted_, order, x, reach_squared, static_cast<std::int32_t>(i), b, e,
+                                   row + length);
       });
-      start_[i + 1] = filled - row;
+      start_[i + 1] = length;
+      used += fits ? length : candidates;
     }
-    share.resize(filled);
-#pragma omp barrier
-#pragma omp single
-    {
-      for (std::size_t i = 0; i < n; ++i) start_[i + 1] += start_[i];
-      list_.resize(start_[n]);
-    }
-    std::copy(share.begin(), share.end(), list_.begin() + static_cast<std::ptrdiff_t>(start_[begin]));
+    filled[thread] = used;
   }
+  const std::size_t needed = *std::max_element(filled.begin(), filled.end());
+  if (needed > room) return needed;
+  for (std::size_t i = 0; i < n; ++i) start_[i + 1] += start_[i];
+  for (std::size_t t = 1; t < most_threads; ++t)  // the shares join, each moving towards the beginning
+    std::copy(list_.begin() + static_cast<std::ptrdiff_t>(t * room),
+              list_.begin() + static_cast<std::ptrdiff_t>(t * room + filled[t]),
+              list_.begin() + static_cast<std::ptrdiff_t>(start_[first[t]]));
+  list_.resize(start_[n]);
+  return needed;
 }
 
 template <int D>

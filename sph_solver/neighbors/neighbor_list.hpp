@@ -52,6 +52,11 @@ class NeighborList {
   }
 
  private:
+  /// Each thread fills the rows of a contiguous share of the particles into its part of list_, `room` long;
+  /// then the shares are joined in order. Returns the room the longest share needs: more than `room`, and
+  /// nothing is joined.
+  std::size_t fill(const Particles<D>& particles, std::size_t room);
+
   double kernel_radius_;
   double skin_;
   CellGrid<D> grid_;

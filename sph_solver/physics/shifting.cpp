@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "pairs/pair_columns.hpp"
 #include "physics/kernel.hpp"
 
 namespace littoral::sph {
@@ -9,42 +10,20 @@ namespace {
 
 constexpr double k_longest = 0.25;  // of U, (14)
 
-std::array<double, 2> sum_pairs(const Particles<2>& particles, const Kernel<2>& kernel, std::size_t i,
-                                const std::int32_t* __restrict list, std::size_t count) {
-  const double* __restrict x = particles.x[0].data();
-  const double* __restrict z = particles.x[1].data();
-  const double xi = x[i], zi = z[i], inv_R = kernel.inv_R;
-  double sx = 0, sz = 0;
-#pragma omp simd reduction(+ : sx, sz)
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::int32_t j = list[k];
-    const double dx = x[j] - xi, dz = z[j] - zi;
-    const double s = 1.0 - std::sqrt(dx * dx + dz * dz) * inv_R;
-    const double q = s > 0.0 ? s : 0.0;
-    sx += q * q * q * dx;
-    sz += q * q * q * dz;
-  }
-  return {-kernel.slope * sx, -kernel.slope * sz};
-}
-
-std::array<double, 3> sum_pairs(const Particles<3>& particles, const Kernel<3>& kernel, std::size_t i,
-                                const std::int32_t* __restrict list, std::size_t count) {
-  const double* __restrict x = particles.x[0].data();
-  const double* __restrict y = particles.x[1].data();
-  const double* __restrict z = particles.x[2].data();
-  const double xi = x[i], yi = y[i], zi = z[i], inv_R = kernel.inv_R;
-  double sx = 0, sy = 0, sz = 0;
-#pragma omp simd reduction(+ : sx, sy, sz)
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::int32_t j = list[k];
-    const double dx = x[j] - xi, dy = y[j] - yi, dz = z[j] - zi;
-    const double s = 1.0 - std::sqrt(dx * dx + dy * dy + dz * dz) * inv_R;
-    const double q = s > 0.0 ? s : 0.0;
-    sx += q * q * q * dx;
-    sy += q * q * q * dy;
-    sz += q * q * q * dz;
-  }
-  return {-kernel.slope * sx, -kernel.slope * sy, -kernel.slope * sz};
+template <int D>
+std::array<double, D> sum_pairs(const Particles<D>& particles, const Kernel<D>& kernel, std::size_t i,
+                                const std::int32_t* list, std::size_t count) {
+  using Vector = Lanes<double>;
+  Vector crowding[D] = {};
+  for_each_group<double>(list, count, i, [&](const std::int32_t* j) {
+    Vector x[D];
+    const Vector r = distances(particles, i, j, x);
+    const Vector q = largest(1.0 - r * kernel.inv_R, Vector{});
+    for (std::size_t d = 0; d < D; ++d) crowding[d] += q * q * q * x[d];
+  });
+  std::array<double, D> total;
+  for (std::size_t d = 0; d < D; ++d) total[d] = -kernel.slope * sum(crowding[d]);
+  return total;
 }
 
 }  // namespace

@@ -2,56 +2,31 @@
 
 #include <cmath>
 
+#include "pairs/pair_columns.hpp"
 #include "physics/kernel.hpp"
 #include "physics/symmetric_matrix.hpp"
 
 namespace littoral::sph {
 namespace {
 
-SymmetricMatrix<2> renormalisation(const Particles<2>& particles, const Kernel<2>& kernel, std::size_t i,
-                                   const std::int32_t* __restrict list, std::size_t count) {
-  const double* __restrict x = particles.x[0].data();
-  const double* __restrict z = particles.x[1].data();
-  const double* __restrict V = particles.V.data();
-  const double xi = x[i], zi = z[i], inv_R = kernel.inv_R, slope = -kernel.slope;
-  double bxx = 0, bxz = 0, bzz = 0;
-#pragma omp simd reduction(+ : bxx, bxz, bzz)
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::int32_t j = list[k];
-    const double dx = x[j] - xi, dz = z[j] - zi;
-    const double s = 1.0 - std::sqrt(dx * dx + dz * dz) * inv_R;
-    const double q = s > 0.0 ? s : 0.0;
-    const double f = slope * V[j] * q * q * q;
-    bxx += f * dx * dx;
-    bxz += f * dx * dz;
-    bzz += f * dz * dz;
-  }
-  return {{bxx, bxz, bzz}};
-}
-
-SymmetricMatrix<3> renormalisation(const Particles<3>& particles, const Kernel<3>& kernel, std::size_t i,
-                                   const std::int32_t* __restrict list, std::size_t count) {
-  const double* __restrict x = particles.x[0].data();
-  const double* __restrict y = particles.x[1].data();
-  const double* __restrict z = particles.x[2].data();
-  const double* __restrict V = particles.V.data();
-  const double xi = x[i], yi = y[i], zi = z[i], inv_R = kernel.inv_R, slope = -kernel.slope;
-  double bxx = 0, bxy = 0, bxz = 0, byy = 0, byz = 0, bzz = 0;
-#pragma omp simd reduction(+ : bxx, bxy, bxz, byy, byz, bzz)
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::int32_t j = list[k];
-    const double dx = x[j] - xi, dy = y[j] - yi, dz = z[j] - zi;
-    const double s = 1.0 - std::sqrt(dx * dx + dy * dy + dz * dz) * inv_R;
-    const double q = s > 0.0 ? s : 0.0;
-    const double f = slope * V[j] * q * q * q;
-    bxx += f * dx * dx;
-    bxy += f * dx * dy;
-    bxz += f * dx * dz;
-    byy += f * dy * dy;
-    byz += f * dy * dz;
-    bzz += f * dz * dz;
-  }
-  return {{bxx, bxy, bxz, byy, byz, bzz}};
+template <int D>
+SymmetricMatrix<D> renormalisation(const Particles<D>& particles, const Kernel<D>& kernel, std::size_t i,
+                                   const std::int32_t* list, std::size_t count) {
+  using Vector = Lanes<double>;
+  constexpr std::size_t k_entries = D * (D + 1) / 2;
+  Vector B[k_entries] = {};
+  for_each_group<double>(list, count, i, [&](const std::int32_t* j) {
+    Vector x[D];
+    const Vector r = distances(particles, i, j, x);
+    const Vector q = largest(1.0 - r * kernel.inv_R, Vector{});
+    const Vector f = gather(particles.V.data(), j) * (q * q * q);
+    std::size_t next = 0;
+    for (std::size_t a = 0; a < D; ++a)
+      for (std::size_t b = a; b < D; ++b) B[next++] += f * x[a] * x[b];
+  });
+  SymmetricMatrix<D> total;
+  for (std::size_t a = 0; a < k_entries; ++a) total.a[a] = -kernel.slope * sum(B[a]);
+  return total;
 }
 
 template <int D>

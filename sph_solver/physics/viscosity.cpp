@@ -1,3 +1,4 @@
+#include "pairs/pair_columns.hpp"
 #include "physics/kernel.hpp"
 #include "physics/term.hpp"
 
@@ -6,61 +7,24 @@ namespace {
 
 constexpr double k_least_distance = 1e-9;  // of R; keeps 1/r^2 finite for coincident particles
 
-std::array<double, 2> sum_pairs(const Particles<2>& particles, const Kernel<2>& kernel, std::size_t i,
-                                const std::int32_t* __restrict list, std::size_t count) {
-  const double* __restrict x = particles.x[0].data();
-  const double* __restrict z = particles.x[1].data();
-  const double* __restrict u = particles.u[0].data();
-  const double* __restrict w = particles.u[1].data();
-  const double* __restrict V = particles.V.data();
-  const double xi = x[i], zi = z[i], ui = u[i], wi = w[i];
-  const double inv_R = kernel.inv_R, slope = -kernel.slope;
-  const double least = k_least_distance * k_least_distance * kernel.R * kernel.R;
-  double fx = 0, fz = 0;
-#pragma omp simd reduction(+ : fx, fz)
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::int32_t j = list[k];
-    const double dx = x[j] - xi, dz = z[j] - zi;
-    const double rr = dx * dx + dz * dz;
-    const double r2 = rr > least ? rr : least;
-    const double s = 1.0 - std::sqrt(r2) * inv_R;
-    const double q = s > 0.0 ? s : 0.0;
-    const double approach = (u[j] - ui) * dx + (w[j] - wi) * dz;
-    const double f = slope * V[j] * q * q * q * approach / r2;
-    fx += f * dx;
-    fz += f * dz;
-  }
-  return {fx, fz};
-}
-
-std::array<double, 3> sum_pairs(const Particles<3>& particles, const Kernel<3>& kernel, std::size_t i,
-                                const std::int32_t* __restrict list, std::size_t count) {
-  const double* __restrict x = particles.x[0].data();
-  const double* __restrict y = particles.x[1].data();
-  const double* __restrict z = particles.x[2].data();
-  const double* __restrict u = particles.u[0].data();
-  const double* __restrict v = particles.u[1].data();
-  const double* __restrict w = particles.u[2].data();
-  const double* __restrict V = particles.V.data();
-  const double xi = x[i], yi = y[i], zi = z[i], ui = u[i], vi = v[i], wi = w[i];
-  const double inv_R = kernel.inv_R, slope = -kernel.slope;
-  const double least = k_least_distance * k_least_distance * kernel.R * kernel.R;
-  double fx = 0, fy = 0, fz = 0;
-#pragma omp simd reduction(+ : fx, fy, fz)
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::int32_t j = list[k];
-    const double dx = x[j] - xi, dy = y[j] - yi, dz = z[j] - zi;
-    const double rr = dx * dx + dy * dy + dz * dz;
-    const double r2 = rr > least ? rr : least;
-    const double s = 1.0 - std::sqrt(r2) * inv_R;
-    const double q = s > 0.0 ? s : 0.0;
-    const double approach = (u[j] - ui) * dx + (v[j] - vi) * dy + (w[j] - wi) * dz;
-    const double f = slope * V[j] * q * q * q * approach / r2;
-    fx += f * dx;
-    fy += f * dy;
-    fz += f * dz;
-  }
-  return {fx, fy, fz};
+template <int D>
+std::array<double, D> sum_pairs(const Particles<D>& particles, const Kernel<D>& kernel, std::size_t i,
+                                const std::int32_t* list, std::size_t count) {
+  using Vector = Lanes<double>;
+  const Vector least = broadcast(k_least_distance * kernel.R);
+  Vector force[D] = {};
+  for_each_group<double>(list, count, i, [&](const std::int32_t* j) {
+    Vector x[D], approach = {};
+    const Vector r = largest(distances(particles, i, j, x), least);
+    for (std::size_t d = 0; d < D; ++d)
+      approach += (gather(particles.u[d].data(), j) - particles.u[d][i]) * x[d];
+    const Vector q = largest(1.0 - r * kernel.inv_R, Vector{});
+    const Vector f = gather(particles.V.data(), j) * (q * q * q) * approach / (r * r);
+    for (std::size_t d = 0; d < D; ++d) force[d] += f * x[d];
+  });
+  std::array<double, D> total;
+  for (std::size_t d = 0; d < D; ++d) total[d] = -kernel.slope * sum(force[d]);
+  return total;
 }
 
 }  // namespace
