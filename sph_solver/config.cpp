@@ -18,6 +18,10 @@ const std::vector<std::pair<std::string, RiemannSolver>> k_riemann_solvers = {
     {"linearised", RiemannSolver::linearised}, {"low_dissipation", RiemannSolver::low_dissipation}};
 const std::vector<std::pair<std::string, Tension>> k_tensions = {{"plain", Tension::plain},
                                                                  {"switched", Tension::switched}};
+const std::vector<std::pair<std::string, Precision>> k_precisions = {{"double", Precision::all_double},
+                                                                     {"mixed", Precision::mixed}};
+const std::vector<std::pair<std::string, Integrator>> k_integrators = {{"rk4", Integrator::rk4},
+                                                                       {"midpoint", Integrator::midpoint}};
 const std::vector<std::pair<std::string, GaugeConfig::Kind>> k_gauges = {
     {"point", GaugeConfig::Kind::point}, {"elevation", GaugeConfig::Kind::elevation}};
 const std::vector<std::pair<std::string, Config::InitialDistribution>> k_distributions = {
@@ -51,11 +55,15 @@ void Config::bind(support::Binder& b) {
       .doc(
           "Pressure force inside the water where p is below the reference pressure. plain: eq. (11) of Di "
           "Mascio et al. 2021; switched: its part that makes clumps left out (Sun et al. 2018).");
+  b.choice("precision", precision, k_precisions)
+      .doc("Of the pair loops; mixed: a pair in float, what it adds to and the particles in double.");
   b.section("shifting", "Keeps the particles evenly spread.", [&] {
     b.key("enabled", shifting).doc("Move particles towards voids, along the surface only where it is near.");
   });
   b.section("time", "Limits of the time step.", [&] {
-    b.key("cfl", cfl).unit("-").exclusive_min(0).max(1).doc("Of R / c.");
+    b.choice("integrator", integrator, k_integrators)
+        .doc("rk4: classical, four slopes a step; midpoint: two slopes, of second order.");
+    b.key("cfl", cfl).unit("-").exclusive_min(0).max(1).doc("Of R / c; auto: 0.375 (rk4), 0.27 (midpoint).");
     b.key("viscous_cfl", viscous_cfl).unit("-").exclusive_min(0).max(1).doc("Of R^2 / nu.");
     b.key("force_cfl", force_cfl).unit("-").exclusive_min(0).max(2).doc("Of sqrt(R / |du/dt|).");
   });
@@ -167,7 +175,9 @@ Numerics<D> numerics_of(const RunConfig& config) {
   numerics.shifting = sph.shifting;
   numerics.reference_velocity =
       scene.reference_velocity > 0.0 ? scene.reference_velocity : 0.1 * scene.fluid.sound_speed;
-  numerics.cfl = sph.cfl;
+  numerics.precision = sph.precision;
+  numerics.integrator = sph.integrator;
+  numerics.cfl = sph.cfl.value_or(default_cfl(sph.integrator));
   numerics.viscous_cfl = sph.viscous_cfl;
   numerics.force_cfl = sph.force_cfl;
   return numerics;

@@ -30,8 +30,10 @@ struct Config {
   Reconstruction reconstruction = Reconstruction::unlimited;
   RiemannSolver riemann = RiemannSolver::linearised;
   Tension tension = Tension::plain;
+  Precision precision = Precision::all_double;
   bool shifting = true;
-  double cfl = 0.375;
+  Integrator integrator = Integrator::rk4;
+  std::optional<double> cfl;  // absent: that of the integrator
   double viscous_cfl = 0.12;
   double force_cfl = 0.25;
   double skin = 0.3;  // [dx]

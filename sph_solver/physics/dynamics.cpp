@@ -11,14 +11,6 @@
 namespace littoral::sph {
 namespace {
 
-/// Classical Runge-Kutta: how far the next stage lies ahead of the start, and the weight of this slope.
-struct RungeKuttaStage {
-  double advance;  // of dt; next state = start + advance dt slope
-  double weight;
-};
-constexpr std::array<RungeKuttaStage, 4> k_classical = {
-    {{0.5, 1.0 / 6.0}, {0.5, 1.0 / 3.0}, {1.0, 1.0 / 3.0}, {1.0, 1.0 / 6.0}}};
-
 constexpr double k_mirror_tolerance = 0.5;  // of dx: how far through a symmetry plane a particle may stray
 
 }  // namespace
@@ -158,16 +150,17 @@ void Dynamics<D>::step(Particles<D>& particles, double t, double dt, StepHooks<D
     if (hooks != nullptr) hooks->adjust_shift(particles, t);
   }
   remember_start(particles);
-  for (std::size_t k = 0; k < k_classical.size(); ++k) {
-    right_hand_side(particles, k == 0 ? t : t + k_classical[k - 1].advance * dt);  // (S3)-(S8)
-    const bool last = k + 1 == k_classical.size();
+  const Stages stages = stages_of(numerics_.integrator);
+  for (std::size_t k = 0; k < stages.count; ++k) {
+    right_hand_side(particles, stages.time(k, t, dt));  // (S3)-(S8)
+    const bool last = k + 1 == stages.count;
     {
       const PhaseSeconds::Scope scope(seconds_, Phase::update);
-      update(particles, k_classical[k].advance, k_classical[k].weight, last, dt);
+      update(particles, stages[k].advance, stages[k].weight, last, dt);
     }
     if (hooks != nullptr) {
       const PhaseSeconds::Scope scope(seconds_, Phase::hooks);
-      hooks->after_stage(particles, t + k_classical[k].advance * dt);
+      hooks->after_stage(particles, t + stages[k].advance * dt);
     }
   }
   check(particles, t, dt);

@@ -31,8 +31,8 @@ struct WorkCount {
   std::int64_t mirrored_back = 0;  // particles that had crossed a symmetry plane by less than half a spacing
 };
 
-/// Advances the particles by classical Runge-Kutta steps of (x, u, V). Holds what a step needs besides the
-/// particles.
+/// Advances the particles by Runge-Kutta steps of (x, u, V), classical ones unless numerics say otherwise.
+/// Holds what a step needs besides the particles.
 template <int D>
 class Dynamics {
  public:

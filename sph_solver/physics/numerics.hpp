@@ -6,6 +6,7 @@
 
 #include "littoral/support/formula.hpp"
 #include "physics/eos.hpp"
+#include "physics/integrator.hpp"
 #include "physics/riemann.hpp"
 
 namespace littoral::sph {
@@ -31,9 +32,10 @@ struct Numerics {
   Tension tension = Tension::plain;
   bool shifting = true;
   double reference_velocity = 0.0;  // U of (14) [m/s]
-  double cfl = 0.375;               // CFL_a of (16)
-  double viscous_cfl = 0.12;        // CFL_nu of (16)
-  double force_cfl = 0.25;          // on sqrt(R / |du/dt|)
+  Integrator integrator = Integrator::rk4;
+  double cfl = 0.375;         // CFL_a of (16)
+  double viscous_cfl = 0.12;  // CFL_nu of (16)
+  double force_cfl = 0.25;    // on sqrt(R / |du/dt|)
 };
 
 }  // namespace littoral::sph

@@ -16,7 +16,7 @@ struct StepHooks {
   virtual void adjust_surface(Particles<D>&, double /*t*/) {}
   /// After the shift was computed: may take components away.
   virtual void adjust_shift(Particles<D>&, double /*t*/) {}
-  /// After each of the four updates, positions and states of time t (t + dt/2, t + dt/2, t + dt, t + dt).
+  /// After each update, positions and states of time t (rk4: t + dt/2, t + dt/2, t + dt, t + dt).
   virtual void after_stage(Particles<D>&, double /*t*/) {}
   /// At the end, positions and states of t + dt. May append, remove.
   virtual void after_step(Particles<D>&, double /*t*/, double /*dt*/) {}
