@@ -7,6 +7,7 @@ namespace littoral::fv {
 template <int D>
 Exchange<D>::Exchange(const std::vector<Block<D>>& blocks, OversetLinks<D> overset)
     : overset_(std::move(overset)) {
+  if (!overset_.empty()) contour_ = ClosedContour<D>(blocks);
   std::vector<Extent<D>> extents;
   for (const auto& block : blocks) extents.push_back(block.extent);
   links_ = JoinLinks<D>(join_sides(blocks), extents, k_ghost);

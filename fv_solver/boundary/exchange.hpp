@@ -4,6 +4,7 @@
 
 #include "boundary/links.hpp"
 #include "grid/block.hpp"
+#include "overset/closed_contour.hpp"
 #include "overset/donors.hpp"
 
 namespace littoral::fv {
@@ -26,10 +27,12 @@ class Exchange {
 
   const JoinLinks<D>& links() const { return links_; }
   const OversetLinks<D>& overset() const { return overset_; }
+  const ClosedContour<D>& closed_contour() const { return contour_; }
 
  private:
   JoinLinks<D> links_;
   OversetLinks<D> overset_;
+  ClosedContour<D> contour_;
 };
 
 /// Centres, volumes and face areas of the ghosts behind joins are those of the cells there, so that

@@ -273,5 +273,34 @@ TEST(OversetVortexTest, SecondOrderThroughTheOverlap) {
   EXPECT_LT(jump_fine, 6.0 * fine);  // largest at the fringe against the mean everywhere
 }
 
+/// A lid drives a closed, incompressible box: what the interpolation lets into the hole has nowhere to go,
+/// and the inner iteration would stall at that flux (ClosedContour).
+TEST(OversetClosedBoxTest, InnerIterationDoesNotStall) {
+  std::vector<Block<2>> blocks;
+  blocks.push_back(make_block<2>("box", {24, 24}, {}, [](const std::array<int, 2>& i) {
+    return std::array<double, 2>{i[0] / 24.0, i[1] / 24.0};
+  }));
+  blocks.push_back(make_block<2>("patch", {16, 16}, {}, [](const std::array<int, 2>& i) {
+    const double a = 0.6 * (i[0] / 16.0 - 0.5), b = 0.6 * (i[1] / 16.0 - 0.5);
+    return std::array<double, 2>{0.5 + 0.8 * a - 0.6 * b, 0.5 + 0.6 * a + 0.8 * b};
+  }));
+  for (int d = 0; d < 2; ++d)
+    for (int side = 0; side < 2; ++side) {
+      window<2>(blocks[0], d, side, Condition::wall);
+      window<2>(blocks[1], d, side, Condition::overset);
+    }
+  blocks[0].windows.back().velocity[0] = [](const std::array<double, 3>&, double) { return 1.0; };
+  auto assembly = assemble_overset<2>(blocks, {});
+  Equations<2> equations;
+  equations.fluid.viscosity = 0.01;
+  InnerTolerance tolerance;
+  tolerance.drop = 1e-6;
+  tolerance.max_cycles = 80;
+  Stepper<2> stepper(std::move(blocks), equations, std::make_unique<MultigridSolver<2>>(), tolerance,
+                     std::move(assembly.links));
+  stepper.initialise([](const std::array<double, 2>&, double) { return PointState<2>{}; }, 0.0);
+  for (int step = 0; step < 12; ++step) EXPECT_TRUE(stepper.advance(0.05).converged) << step;
+}
+
 }  // namespace
 }  // namespace littoral::fv

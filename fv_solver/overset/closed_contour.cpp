@@ -1,0 +1,84 @@
+#include "overset/closed_contour.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "grid/loops.hpp"
+#include "overset/components.hpp"
+
+namespace littoral::fv {
+namespace {
+
+bool keeps_the_water(Condition condition) {
+  switch (condition) {
+    case Condition::wall:
+    case Condition::slip:
+    case Condition::symmetry:
+    case Condition::inflow:
+    case Condition::periodic:
+    case Condition::join:
+    case Condition::overset:
+      return true;
+    default:
+      return false;
+  }
+}
+
+}  // namespace
+
+template <int D>
+ClosedContour<D>::ClosedContour(const std::vector<Block<D>>& blocks) {
+  for (const Block<D>& block : blocks)
+    for (const Window<D>& window : block.windows)
+      if (!keeps_the_water(window.condition)) return;
+  const std::vector<std::size_t> component = components(blocks);
+  const auto lowest = [&] {
+    std::size_t found = blocks.size();
+    for (std::size_t b = 0; b < blocks.size(); ++b)
+      if (std::find(blocks[b].status.begin(), blocks[b].status.end(), CellStatus::interpolated) !=
+          blocks[b].status.end())
+        found = std::min(found, component[b]);
+    return found;
+  }();
+  double area = 0.0;
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    if (component[b] != lowest) continue;
+    blocks_.push_back(b);
+    const Block<D>& block = blocks[b];
+    for_each_index<D>({}, block.extent.n, [&](const std::array<int, D>& index) {
+      const std::ptrdiff_t c = block.extent.at(index);
+      const auto at = static_cast<std::size_t>(c);
+      if (block.solved[at] == 0.0) return;
+      Face face{b, at, 0.0};
+      for (std::size_t d = 0; d < D; ++d)
+        for (const int side : {0, 1}) {
+          const auto other = static_cast<std::size_t>(c + (side == 0 ? -1 : 1) * block.extent.stride[d]);
+          if (block.status[other] != CellStatus::interpolated) continue;
+          const auto lower = side == 0 ? at : other;
+          double s = 0.0;
+          for (std::size_t k = 0; k < D; ++k) s += block.area[d][k][lower] * block.area[d][k][lower];
+          face.share += std::sqrt(s);
+        }
+      if (face.share == 0.0) return;
+      area += face.share;
+      faces_.push_back(face);
+    });
+  }
+  for (Face& face : faces_) face.share /= area;
+}
+
+template <int D>
+void ClosedContour<D>::close(const std::vector<Block<D>>& blocks, std::vector<Residual<D>>& r) const {
+  double net = 0.0;  // of all boundaries and the contour: what its cells cannot store
+  for (const std::size_t b : blocks_)
+    for_each_index<D>({}, blocks[b].extent.n, [&](const std::array<int, D>& index) {
+      const auto c = static_cast<std::size_t>(blocks[b].extent.at(index));
+      if (blocks[b].solved[c] != 0.0) net += r[b].mass[c];
+    });
+  for (const Face& face : faces_) r[face.block].mass[face.cell] -= net * face.share;
+}
+
+template class ClosedContour<2>;
+template class ClosedContour<3>;
+
+}  // namespace littoral::fv
