@@ -16,6 +16,8 @@ const std::vector<std::pair<std::string, Reconstruction>> k_reconstructions = {
     {"van_leer", Reconstruction::van_leer}};
 const std::vector<std::pair<std::string, RiemannSolver>> k_riemann_solvers = {
     {"linearised", RiemannSolver::linearised}, {"low_dissipation", RiemannSolver::low_dissipation}};
+const std::vector<std::pair<std::string, Fidelity>> k_fidelities = {
+    {"draft", Fidelity::draft}, {"standard", Fidelity::standard}, {"reference", Fidelity::reference}};
 const std::vector<std::pair<std::string, Tension>> k_tensions = {{"plain", Tension::plain},
                                                                  {"switched", Tension::switched}};
 const std::vector<std::pair<std::string, Precision>> k_precisions = {{"double", Precision::all_double},
@@ -41,11 +43,16 @@ void Config::bind(support::Binder& b) {
           "lattice: rows; relaxed: even, without rows that a vortex would strain apart. relaxed wants a "
           "domain "
           "full of water without open sides.");
+  b.choice("fidelity", fidelity, k_fidelities)
+      .doc(
+          "Defaults of other keys at once. draft: kernel_radius 3 in 2-D; standard; reference: riemann "
+          "low_dissipation.");
+  if (b.mode() == support::Binder::Mode::read) riemann = default_riemann(fidelity);
   b.key("kernel_radius", kernel_radius)
       .unit("dx")
       .min(2)
       .max(6)
-      .doc("Radius R of the kernel in spacings; auto: 4 in 2-D, 2.7 in 3-D.");
+      .doc("Radius R of the kernel in spacings; auto: 4 in 2-D (draft: 3), 2.7 in 3-D.");
   b.choice("reconstruction", reconstruction, k_reconstructions)
       .doc("States of the Riemann problem between two particles: how their gradients are used.");
   b.choice("riemann", riemann, k_riemann_solvers)
@@ -167,7 +174,7 @@ Numerics<D> numerics_of(const RunConfig& config) {
   }
   numerics.free_surface = scene.has_free_surface();
   numerics.spacing = sph.spacing;
-  numerics.kernel_radius = sph.kernel_radius.value_or(D == 2 ? 4.0 : 2.7) * sph.spacing;
+  numerics.kernel_radius = sph.kernel_radius.value_or(default_kernel_radius(sph.fidelity, D)) * sph.spacing;
   numerics.skin = sph.skin * sph.spacing;
   numerics.reconstruction = sph.reconstruction;
   numerics.riemann = sph.riemann;

@@ -7,6 +7,7 @@
 
 #include "boundary/domain_box.hpp"
 #include "coupling/coupling_config.hpp"
+#include "fidelity.hpp"
 #include "littoral/support/config.hpp"
 #include "littoral/support/scene.hpp"
 #include "physics/numerics.hpp"
@@ -26,7 +27,8 @@ struct Config {
   std::string scene = "scene.yaml";
   double spacing = 0.0;  // dx [m]
   enum class InitialDistribution { lattice, relaxed } initial_distribution = InitialDistribution::lattice;
-  std::optional<double> kernel_radius;  // [dx]; absent: 4 in 2-D, 2.7 in 3-D
+  Fidelity fidelity = Fidelity::standard;
+  std::optional<double> kernel_radius;  // [dx]; absent: that of the fidelity
   Reconstruction reconstruction = Reconstruction::unlimited;
   RiemannSolver riemann = RiemannSolver::linearised;
   Tension tension = Tension::plain;

@@ -43,6 +43,11 @@ def region_volume(scene):
     return total
 
 
+def default_kernel_radius(dimension, fidelity):
+    """In spacings, as sph_solver/fidelity.hpp has it."""
+    return 2.7 if dimension == 3 else 3.0 if fidelity == "draft" else 4.0
+
+
 def predict(scene, configs):
     """Lines for the user; upper bounds, since the dry part of a region is not known before the run."""
     lines = []
@@ -55,7 +60,8 @@ def predict(scene, configs):
         memory += particles * PARTICLE_BYTES
         lines.append(f"particles: at most {particles:.0f} (spacing {dx:g} m)")
         spacings = find(configs["sph"], ("kernel_radius",))
-        radius = (4.0 if len(axes(scene)) == 2 else 2.7) if spacings in (None, "auto") else float(spacings)
+        radius = (default_kernel_radius(len(axes(scene)), find(configs["sph"], ("fidelity",)))
+                  if spacings in (None, "auto") else float(spacings))
         cfl = find(configs["sph"], ("cfl",)) or 0.375
         c = scene.value("fluid.sound_speed", 0.0)
         end = scene.value("time.end", 0.0)

@@ -10,7 +10,7 @@ import pathlib
 import numpy as np
 import yaml
 
-from . import coverage, fields, meshes
+from . import coverage, estimate, fields, meshes
 from .errors import UserError
 
 LEVEL = 0.5
@@ -26,7 +26,7 @@ def read_setup(folder):
     dimension = int(scene["dimension"])
     radius = sph.get("kernel_radius")
     if radius is None or isinstance(radius, str):
-        radius = 4.0 if dimension == 2 else 2.7
+        radius = estimate.default_kernel_radius(dimension, sph.get("fidelity", "standard"))
     return Setup(float(sph["spacing"]), float(radius), dimension, scene["domain"])
 
 
