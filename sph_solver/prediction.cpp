@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <sstream>
+#include <vector>
 
 #include "littoral/error.hpp"
 #include "physics/dynamics.hpp"
@@ -15,12 +16,36 @@ Layers<D> region_of(const RunConfig& config, bool coupled) {
   return Layers<D>::from_scene(scene, numerics_of<D>(config).kernel_radius);
 }
 
+namespace {
+
+/// Whether the lattice of a box stands at x already. One's rows end half a spacing inside the faces: with
+/// half of that allowed for, rows of two lattices that do not fit stay .75 spacing apart, and those that fit
+/// lose none.
+template <int D>
+bool filled(const RegionBox<D>& box, const Point<D>& x, double spacing) {
+  const double margin = 0.25 * spacing;
+  for (std::size_t d = 0; d < D; ++d)
+    if (x[d] < box.outer_lower[d] - margin || x[d] > box.outer_upper[d] + margin) return false;
+  return true;
+}
+
+}  // namespace
+
 template <int D>
 void place_particles(const RunConfig& config, const Layers<D>& layers, Particles<D>& particles,
                      const LatticeShare& share) {
-  for (const auto& box : layers.boxes())
-    fill_lattice<D>(box.outer_lower, box.outer_upper, config.sph.spacing, config.scene,
+  const auto& boxes = layers.boxes();
+  for (std::size_t b = 0; b < boxes.size(); ++b) {
+    const std::size_t first = particles.n_owned;
+    fill_lattice<D>(boxes[b].outer_lower, boxes[b].outer_upper, config.sph.spacing, config.scene,
                     numerics_of<D>(config).eos, particles, share);
+    if (b == 0) continue;
+    std::vector<char> twice(particles.n_owned, 0);
+    for (std::size_t i = first; i < particles.n_owned; ++i)
+      for (std::size_t q = 0; q < b; ++q)
+        if (filled<D>(boxes[q], at<D>(particles.x, i), config.sph.spacing)) twice[i] = 1;
+    particles.remove(twice);
+  }
   if (particles.next_id == 0)
     throw ConfigError(
         "the scene has no particle at the start: initial.surface is not below 0 at any lattice point of the "

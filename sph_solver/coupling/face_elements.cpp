@@ -15,49 +15,102 @@ namespace {
 /// Fewer searches than this cost less than waking a second thread.
 constexpr std::ptrdiff_t k_worth_a_team = 256;
 
+/// Faces nearer than this coincide [spacing]: room for the round-off of a scene's formulas.
+constexpr double k_same_place = 1e-6;
+
+/// Ends of the tiles of about `spacing` that fill [lower, upper], with an end at each of the cuts inside.
+std::vector<double> tile_edges(double lower, double upper, std::vector<double> cuts, double spacing) {
+  cuts.push_back(upper);
+  std::sort(cuts.begin(), cuts.end());
+  std::vector<double> edges = {lower};
+  for (const double cut : cuts) {
+    const double from = edges.back(), length = cut - from;
+    if (length < k_same_place * spacing || cut > upper) continue;
+    if (cut < upper && upper - cut < k_same_place * spacing) continue;
+    const double n = std::max(1.0, std::round(length / spacing));
+    for (double i = 1.0; i <= n; ++i) edges.push_back(i < n ? from + i * length / n : cut);
+  }
+  return edges;
+}
+
+/// Whether the outer face `axis`, `side` of box b at x lies within another box of the list. Of two boxes that
+/// share a piece of their outer faces the earlier one has it.
+template <int D>
+bool covered(const std::vector<RegionBox<D>>& boxes, std::size_t b, std::size_t axis, std::size_t side,
+             const Point<D>& x, double tolerance) {
+  for (std::size_t q = 0; q < boxes.size(); ++q) {
+    if (q == b) continue;
+    const auto& other = boxes[q];
+    bool within = true;
+    for (std::size_t d = 0; d < D && within; ++d)
+      if (d != axis) within = x[d] > other.outer_lower[d] && x[d] < other.outer_upper[d];
+    if (!within) continue;
+    const double below = x[axis] - other.outer_lower[axis], above = other.outer_upper[axis] - x[axis];
+    if (below > tolerance && above > tolerance) return true;
+    const bool same_face = other.open[axis][side] && std::fabs(side == 0 ? below : above) <= tolerance;
+    const bool back_to_back = std::fabs(side == 0 ? above : below) <= tolerance;
+    if ((same_face && q < b) || back_to_back) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 template <int D>
 FaceElements<D>::FaceElements(const Layers<D>& layers, double spacing) : boxes_(layers.boxes()) {
-  for (std::size_t b = 0; b < boxes_.size(); ++b) {
-    const auto& box = boxes_[b];
+  for (std::size_t b = 0; b < boxes_.size(); ++b)
     for (std::size_t axis = 0; axis < D; ++axis)
       for (std::size_t side = 0; side < 2; ++side) {
-        if (!box.open[axis][side]) continue;
-        Face face{b, axis, side, elements_.size(), {}};
-        Point<D> size{};
-        FaceElement<D> element;
-        element.axis = axis;
-        element.inward = side == 0 ? 1.0 : -1.0;
-        element.area = 1.0;
-        element.box = b;
-        std::size_t count = 1;
-        for (std::size_t d = 0; d < D; ++d) {
-          face.n[d] = 1;
-          if (d == axis) continue;
-          const double length = box.outer_upper[d] - box.outer_lower[d];
-          face.n[d] = static_cast<std::size_t>(std::max(1.0, std::round(length / spacing)));
-          size[d] = length / static_cast<double>(face.n[d]);
-          element.area *= size[d];
-          element.half[d] = 0.5 * size[d];
-          count *= face.n[d];
-        }
-        for (std::size_t k = 0; k < count; ++k) {
-          std::size_t rest = k;
-          for (std::size_t d = 0; d < D; ++d) {
-            const auto i = static_cast<double>(rest % face.n[d]);
-            rest /= face.n[d];
-            element.centre[d] = box.outer_lower[d] + (i + 0.5) * size[d];
-          }
-          element.centre[axis] = side == 0 ? box.outer_lower[axis] : box.outer_upper[axis];
-          elements_.push_back(element);
-        }
+        if (!boxes_[b].open[axis][side]) continue;
+        Face face{b, axis, side, elements_.size(), 0, {}, {}};
+        tile(face, spacing);
         faces_.push_back(face);
       }
-  }
   mass_.assign(size(), Compensated());
   speed_.assign(size(), 0.0);
   forget_hints();
+}
+
+template <int D>
+void FaceElements<D>::tile(Face& face, double spacing) {
+  const auto& box = boxes_[face.box];
+  std::size_t tiles = 1;
+  for (std::size_t d = 0; d < D; ++d) {
+    face.edges[d] = {box.outer_lower[d], box.outer_upper[d]};
+    if (d == face.axis) continue;
+    std::vector<double> cuts;
+    for (std::size_t q = 0; q < boxes_.size(); ++q)
+      if (q != face.box) {
+        cuts.push_back(boxes_[q].outer_lower[d]);
+        cuts.push_back(boxes_[q].outer_upper[d]);
+      }
+    face.edges[d] = tile_edges(box.outer_lower[d], box.outer_upper[d], cuts, spacing);
+    tiles *= face.edges[d].size() - 1;
+  }
+  for (std::size_t k = 0; k < tiles; ++k) {
+    FaceElement<D> element;
+    element.axis = face.axis;
+    element.side = face.side;
+    element.inward = face.side == 0 ? 1.0 : -1.0;
+    element.area = 1.0;
+    element.box = face.box;
+    std::size_t rest = k;
+    for (std::size_t d = 0; d < D; ++d) {
+      if (d == face.axis) continue;
+      const auto& edges = face.edges[d];
+      const std::size_t i = rest % (edges.size() - 1);
+      rest /= edges.size() - 1;
+      element.centre[d] = 0.5 * (edges[i] + edges[i + 1]);
+      element.half[d] = 0.5 * (edges[i + 1] - edges[i]);
+      element.area *= edges[i + 1] - edges[i];
+    }
+    element.centre[face.axis] = face.side == 0 ? box.outer_lower[face.axis] : box.outer_upper[face.axis];
+    const bool inner =
+        covered<D>(boxes_, face.box, face.axis, face.side, element.centre, k_same_place * spacing);
+    face.element.push_back(inner ? k_covered : elements_.size());
+    if (!inner) elements_.push_back(element);
+  }
+  face.count = elements_.size() - face.first;
 }
 
 template <int D>
@@ -131,15 +184,25 @@ void FaceElements<D>::integrate(const Exterior& fv, const LinearEos& eos, double
 }
 
 template <int D>
+double FaceElements<D>::mean_pressure(const Exterior& fv, double time, double otherwise) const {
+  double force = 0.0, area = 0.0;
+  for (std::size_t e = 0; e < size(); ++e) {
+    const auto state = fv.at(to_vec3<D>(elements_[e].centre), time, hint_[e]);
+    if (!state) continue;
+    force += state->p * elements_[e].area;
+    area += elements_[e].area;
+  }
+  return area > 0.0 ? force / area : otherwise;
+}
+
+template <int D>
 void FaceElements<D>::level_outflow(double particle_mass) {
   for (const Face& face : faces_) {
-    std::size_t count = 1;
-    for (std::size_t n : face.n) count *= n;
-    for (std::size_t e = face.first; e < face.first + count; ++e) {
+    for (std::size_t e = face.first; e < face.first + face.count; ++e) {
       while (speed_[e] <= 0.0 && mass(e) >= 0.5 * particle_mass) {
         std::size_t nearest = size();
         double s_min = std::numeric_limits<double>::infinity();
-        for (std::size_t f = face.first; f < face.first + count; ++f) {
+        for (std::size_t f = face.first; f < face.first + face.count; ++f) {
           if (mass(f) > -0.5 * particle_mass || mass(e) - mass(f) < 1.5 * particle_mass) continue;
           double s = 0.0;
           for (std::size_t d = 0; d < D; ++d)
@@ -167,30 +230,53 @@ double FaceElements<D>::total_mass() const {
 
 template <int D>
 std::size_t FaceElements<D>::crossed(const Point<D>& x) const {
-  double furthest = 0.0;
   const Face* through = nullptr;
-  for (const auto& face : faces_) {
-    const auto& box = boxes_[face.box];
-    const double beyond = face.side == 0 ? box.outer_lower[face.axis] - x[face.axis]
-                                         : x[face.axis] - box.outer_upper[face.axis];
-    if (beyond > furthest) {
-      furthest = beyond;
-      through = &face;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t b = 0; b < boxes_.size(); ++b) {  // out of the box it is least far from
+    double furthest = 0.0;
+    const Face* of_box = nullptr;
+    for (const auto& face : faces_) {
+      if (face.box != b) continue;
+      const double beyond = face.side == 0 ? boxes_[b].outer_lower[face.axis] - x[face.axis]
+                                           : x[face.axis] - boxes_[b].outer_upper[face.axis];
+      if (beyond > furthest) {
+        furthest = beyond;
+        of_box = &face;
+      }
+    }
+    if (of_box == nullptr) return size();  // inside this box
+    if (furthest < least) {
+      least = furthest;
+      through = of_box;
     }
   }
   if (through == nullptr) return size();
-  const auto& box = boxes_[through->box];
-  std::size_t index = 0, stride = 1;
+  std::size_t tile = 0, stride = 1;
   for (std::size_t d = 0; d < D; ++d) {
-    if (d != through->axis) {
-      const double s = (x[d] - box.outer_lower[d]) / (box.outer_upper[d] - box.outer_lower[d]);
-      const double i = std::clamp(std::floor(s * static_cast<double>(through->n[d])), 0.0,
-                                  static_cast<double>(through->n[d] - 1));
-      index += stride * static_cast<std::size_t>(i);
-    }
-    stride *= through->n[d];
+    if (d == through->axis) continue;
+    const auto& edges = through->edges[d];
+    const auto above = std::upper_bound(edges.begin() + 1, edges.end() - 1, x[d]);
+    tile += stride * static_cast<std::size_t>(above - edges.begin() - 1);
+    stride *= edges.size() - 1;
   }
-  return through->first + index;
+  if (through->element[tile] != k_covered) return through->element[tile];
+  return nearest(x);  // past an edge where two boxes meet
+}
+
+template <int D>
+std::size_t FaceElements<D>::nearest(const Point<D>& x) const {
+  std::size_t nearest = size();
+  double s_min = std::numeric_limits<double>::infinity();
+  for (std::size_t e = 0; e < size(); ++e) {
+    double s = 0.0;
+    for (std::size_t d = 0; d < D; ++d)
+      s += (elements_[e].centre[d] - x[d]) * (elements_[e].centre[d] - x[d]);
+    if (s < s_min) {
+      s_min = s;
+      nearest = e;
+    }
+  }
+  return nearest;
 }
 
 template <int D>

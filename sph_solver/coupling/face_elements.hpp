@@ -17,13 +17,16 @@ struct FaceElement {
   Point<D> centre{};     // [m]
   Point<D> half{};       // [m] half its extent in each direction, 0 in the normal one
   std::size_t axis = 0;  // direction of the normal
+  std::size_t side = 0;  // lower or upper face of its box
   double inward = 1.0;   // +1: the inward normal points to larger coordinates
   double area = 0.0;     // [m^(D-1)]
   std::size_t box = 0;   // region box it bounds
 };
 
 /// The outer faces of the region, split into elements, and the mass each carries: integrated by (18), not yet
-/// injected as particles.
+/// injected as particles. Of several boxes only what bounds their union has elements: a face is cut where
+/// another box's outer faces end, and what lies within another box (or coincides with an earlier one's
+/// face) is left out.
 template <int D>
 class FaceElements {
  public:
@@ -40,6 +43,8 @@ class FaceElements {
 
   double mass(std::size_t e) const { return mass_[e].value(); }  // [kg]
   void credit(std::size_t e, double mass) { mass_[e] += mass; }  // [kg]
+  /// Mean of FV's pressure over the outer faces at `time` [Pa]; `otherwise` where FV has no water at any.
+  double mean_pressure(const Exterior& fv, double time, double otherwise) const;
   /// Where water flows out, a particle may leave through the element beside the one that its mass was counted
   /// on: a whole particle's surplus goes to the nearest element of the face that is owed one.
   void level_outflow(double particle_mass);
@@ -59,9 +64,15 @@ class FaceElements {
 
  private:
   struct Face {
-    std::size_t box, axis, side, first;  // index of its first element
-    std::array<std::size_t, D> n;        // elements per direction, 1 in the normal one
+    std::size_t box, axis, side;
+    std::size_t first, count;  // its elements
+    std::array<std::vector<double>, D>
+        edges;                         // [m] of the tiles, by direction; the normal one: a single tile
+    std::vector<std::size_t> element;  // of the tile, first direction fastest; k_covered: none
   };
+  static constexpr std::size_t k_covered = static_cast<std::size_t>(-1);
+  void tile(Face& face, double spacing);
+  std::size_t nearest(const Point<D>& x) const;
   double wet_part(const Exterior& fv, std::size_t e, double phi_centre, double time) const;
 
   std::vector<RegionBox<D>> boxes_;

@@ -24,6 +24,12 @@ double power(double base, int exponent) {
   return product;
 }
 
+/// Index of the counts by face.
+template <int D>
+std::size_t face_of(const FaceElement<D>& element) {
+  return 2 * space_axis<D>(element.axis) + element.side;
+}
+
 /// Particles within `reach` of an open outer face, or beyond it.
 template <int D>
 std::vector<std::size_t> near_faces(const Particles<D>& particles, const Layers<D>& layers, double reach) {
@@ -64,6 +70,7 @@ void ParticleExchange<D>::doom(const Particles<D>& particles, std::size_t i, std
   removed_ += particles.m[i];
   doomed_[i] = 1;
   ++n_doomed_;
+  ++counts_.removed_through[face_of<D>(elements_[element])];
 }
 
 template <int D>
@@ -157,6 +164,7 @@ bool ParticleExchange<D>::inject(Particles<D>& particles, const Exterior& fv, do
       elements_.credit(e, -m0_);
       injected_ += m0_;
       ++counts_.injected;
+      ++counts_.injected_through[face_of<D>(elements_[e])];
     }
   }
   return counts_.injected > before;
@@ -208,13 +216,17 @@ std::vector<double> ParticleExchange<D>::pack() const {
 
 template <int D>
 std::vector<std::int64_t> ParticleExchange<D>::pack_counts() const {
-  return {counts_.injected, counts_.removed_crossing, counts_.removed_nearest, counts_.lost};
+  std::vector<std::int64_t> packed = {counts_.injected, counts_.removed_crossing, counts_.removed_nearest,
+                                      counts_.lost};
+  for (const auto* by_face : {&counts_.injected_through, &counts_.removed_through})
+    packed.insert(packed.end(), by_face->begin(), by_face->end());
+  return packed;
 }
 
 template <int D>
 void ParticleExchange<D>::unpack(const std::vector<double>& packed, const std::vector<std::int64_t>& counts) {
   constexpr std::size_t tail = 8;
-  if (packed.size() < tail || counts.size() != 4)
+  if (packed.size() < tail || counts.size() != pack_counts().size())
     throw IoError("particle exchange: the record is too short.");
   const std::size_t first = packed.size() - tail;
   elements_.unpack(std::vector<double>(packed.begin(), packed.begin() + static_cast<std::ptrdiff_t>(first)));
@@ -223,7 +235,13 @@ void ParticleExchange<D>::unpack(const std::vector<double>& packed, const std::v
     *sum = Compensated(packed[k], packed[k + 1]);
     k += 2;
   }
-  counts_ = {counts[0], counts[1], counts[2], counts[3]};
+  counts_.injected = counts[0];
+  counts_.removed_crossing = counts[1];
+  counts_.removed_nearest = counts[2];
+  counts_.lost = counts[3];
+  auto next = counts.begin() + 4;
+  for (auto* by_face : {&counts_.injected_through, &counts_.removed_through})
+    for (auto& count : *by_face) count = *next++;
 }
 
 void check_ledger(const coupler::Ledger& total, double time) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -31,6 +32,8 @@ struct ExchangeCounts {
   std::int64_t removed_crossing = 0;
   std::int64_t removed_nearest = 0;
   std::int64_t lost = 0;  ///< taken out by others than the exchange (reported with lose())
+  /// By face: 2 axis + side, axes (x, y, z) of space, sides lower and upper; boxes together.
+  std::array<std::int64_t, 6> injected_through{}, removed_through{};
 };
 
 /// Injection and removal of particles at the outer faces, and the ledger of mass: what is in particles and on

@@ -123,8 +123,11 @@ std::array<bool, D> Layers<D>::blocked_normals(const Point<D>& x, double reach) 
   std::array<bool, D> blocked{};
   for (const auto& box : boxes_)
     for (std::size_t d = 0; d < D; ++d) {
-      if (box.open[d][0] && x[d] < box.outer_lower[d] + reach) blocked[d] = true;
-      if (box.open[d][1] && x[d] > box.outer_upper[d] - reach) blocked[d] = true;
+      Point<D> lower = x, upper = x;
+      lower[d] -= reach;
+      upper[d] += reach;
+      if (box.open[d][0] && lower[d] < box.outer_lower[d] && !inside_outer(lower)) blocked[d] = true;
+      if (box.open[d][1] && upper[d] > box.outer_upper[d] && !inside_outer(upper)) blocked[d] = true;
     }
   return blocked;
 }

@@ -57,7 +57,8 @@ class Layers {
   }
   bool inside_outer(const Point<D>& x) const;
 
-  /// Of the open outer faces within `reach` of x: 1 in a direction whose normal component must not be used.
+  /// True in a direction in which `reach` from x, up or down, leads through an open outer face and out of all
+  /// boxes: the kernel is cut there and its normal component must not be used.
   std::array<bool, D> blocked_normals(const Point<D>& x, double reach) const;
 
   coupler::Box needs(double skin) const;  ///< where donors are needed: the layers, grown; empty if none

@@ -11,7 +11,20 @@
 namespace littoral::sph {
 namespace {
 
-std::vector<std::string> scalar_columns() {
+/// One column a face of the region's boxes, as ExchangeCounts has them: <what>_x_lower, ...
+void add_face_columns(std::vector<std::string>& columns, const std::string& what, int dimension) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (dimension == 3 || axis != 1)
+      for (const char* side : {"_lower", "_upper"}) columns.push_back(what + "_" + "xyz"[axis] + side);
+}
+
+template <class Counts>
+void add_face_counts(std::vector<double>& row, const Counts& counts, int dimension) {
+  for (std::size_t face = 0; face < counts.size(); ++face)
+    if (dimension == 3 || face / 2 != 1) row.push_back(static_cast<double>(counts[face]));
+}
+
+std::vector<std::string> scalar_columns(const support::Scene& scene) {
   std::vector<std::string> columns = {"time",
                                       "dt",
                                       "substeps",
@@ -31,9 +44,14 @@ std::vector<std::string> scalar_columns() {
                                       "ledger_defect",
                                       "n_removed_crossing",
                                       "n_removed_nearest",
+                                      "n_lost",
                                       "n_blending",
                                       "n_driven",
                                       "n_without_donors"};
+  if (scene.has_region()) {
+    add_face_columns(columns, "n_injected", scene.dimension);
+    add_face_columns(columns, "n_removed", scene.dimension);
+  }
   for (const char* phase : k_phase_names) columns.push_back(std::string("seconds_") + phase);
   columns.insert(columns.end(), {"seconds_output", "seconds_wait"});
   return columns;
@@ -95,7 +113,7 @@ Output<D>::Output(const std::string& folder, const RunConfig& config, const std:
       gravity_(numerics_of<D>(config).gravity),
       last_fields_(restart ? restart->last_fields : 0.0) {
   if (ranks_ != nullptr && ranks_->rank() != 0) return;
-  scalars_.emplace(series(folder + "/scalars.csv", scalar_columns(), restart,
+  scalars_.emplace(series(folder + "/scalars.csv", scalar_columns(config.scene), restart,
                           "SI units; in 2-D per metre of width; seconds_: wall time so far"));
   fields_.emplace(folder, "particles", restart.has_value(), restart ? restart->time : 0.0);
   if (!config.sph.gauges.empty())
@@ -164,9 +182,14 @@ void Output<D>::write_rows(const Moment& now, const Particles<D>& particles, con
                              ledger.defect,
                              static_cast<double>(now.exchanged.removed_crossing),
                              static_cast<double>(now.exchanged.removed_nearest),
+                             static_cast<double>(now.exchanged.lost),
                              static_cast<double>(in_layers.blending),
                              static_cast<double>(in_layers.driven),
                              static_cast<double>(in_layers.unreached)};
+  if (config_.scene.has_region()) {
+    add_face_counts(row, now.exchanged.injected_through, D);
+    add_face_counts(row, now.exchanged.removed_through, D);
+  }
   for (std::size_t phase = 0; phase < k_phase_names.size(); ++phase) row.push_back(dynamics.seconds()[phase]);
   row.insert(row.end(), {seconds_, now.waited});
   scalars_->row(row);

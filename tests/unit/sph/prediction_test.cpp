@@ -52,5 +52,21 @@ TEST(PredictionTest, RefusesAnEmptyScene) {
   EXPECT_THROW(predict(config, false), ConfigError);
 }
 
+TEST(PlaceParticlesTest, WhereLayersOfTwoBoxesOverlapTheLatticeStandsOnce) {
+  RunConfig config = square();
+  config.scene.domain.lower = {-1.0, 0.0, -1.0};
+  config.scene.domain.upper = {3.0, 0.0, 2.0};
+  config.scene.regions.resize(2);
+  config.scene.regions[0].lower = {0.0, 0.0, 0.0};
+  config.scene.regions[0].upper = {1.0, 0.0, 1.0};
+  config.scene.regions[1].lower = {1.0, 0.0, 0.0};
+  config.scene.regions[1].upper = {2.0, 0.0, 0.4};
+  Particles<2> particles;
+  place_particles<2>(config, region_of<2>(config, true), particles);
+  // outer boxes 1.4 x 1.4, and .8 more of one 1.4 x .8
+  EXPECT_EQ(particles.n_owned,
+            static_cast<std::size_t>(std::lround((1.4 * 1.4 + 1.0 * 0.8) / (0.025 * 0.025))));
+}
+
 }  // namespace
 }  // namespace littoral::sph
