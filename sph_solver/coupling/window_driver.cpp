@@ -14,6 +14,8 @@ WindowDriver<D>::WindowDriver(const support::Scene& scene, const CouplingConfig&
       sample_rules_{config.samples, numerics.kernel_radius, scene.has_free_surface()},
       spacing_(numerics.spacing),
       phi_band_(config.phi_band * numerics.spacing),
+      level_follows_fv_(!numerics.free_surface),
+      reference_pressure_(numerics.eos.p0),
       donors_(scene),
       hooks_(Layers<D>::from_scene(scene, numerics.kernel_radius), numerics, donors_, config.removal) {}
 
@@ -59,6 +61,9 @@ void WindowDriver<D>::advance(const coupler::Agreement& agreement, Particles<D>&
       dynamics.forget_lists();
     }
     partner_.receive(window, donors_.values());
+    if (level_follows_fv_ && hooks_.exchange().elements().size() > 0)
+      dynamics.set_pressure_level(
+          hooks_.exchange().elements().mean_pressure(donors_, window.t_begin, reference_pressure_));
     for (int k = 0; k < window.substeps; ++k) dynamics.step(particles, window.t_begin + k * dt, dt, &hooks_);
     send_samples(window, particles, dynamics);
   }

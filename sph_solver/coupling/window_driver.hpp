@@ -53,6 +53,8 @@ class WindowDriver {
   SampleRules sample_rules_;
   double spacing_;
   double phi_band_;
+  bool level_follows_fv_;      // no free surface that fixes the pressure the pair loops take off
+  double reference_pressure_;  // [Pa] p0
   DonorField donors_;
   CouplingHooks<D> hooks_;
   coupler::Samples samples_;

@@ -21,7 +21,8 @@ Dynamics<D>::Dynamics(const Numerics<D>& numerics, const DomainBox<D>& box, Othe
       others_(others),
       ghosts_(box, others),
       neighbors_(numerics.kernel_radius, numerics.skin),
-      shifting_(numerics.reference_velocity, numerics.spacing) {
+      shifting_(numerics.reference_velocity, numerics.spacing),
+      pressure_level_(numerics.eos.p0) {
   if (numerics.precision == Precision::mixed) rows_.template emplace<PairRows<D, float>>();
   double g = 0.0;
   for (double component : numerics.gravity) g += std::fabs(component);
@@ -112,7 +113,7 @@ void Dynamics<D>::pair_loops(const Particles<D>& particles, PairRows<D, Real>& r
   const bool second_order = numerics_.reconstruction != Reconstruction::first_order;
   {
     const PhaseSeconds::Scope scope(seconds_, Phase::gradients);
-    rows.pack_states(particles, Kernel<D>(numerics_.kernel_radius), numerics_.eos.p0);
+    rows.pack_states(particles, Kernel<D>(numerics_.kernel_radius), pressure_level_);
     if (second_order) {
       compute_gradients(rows, neighbors_, gradients_);  // (S3)
       ghosts_.refresh(gradients_, particles.n_owned);

@@ -56,6 +56,12 @@ class Dynamics {
   /// anew.
   void forget_lists() { neighbors_.forget(), surface_current_ = false; }
 
+  /// Pressure taken off in the pair loops from now on [Pa]; at first that of the surface, p0. For flows
+  /// without a surface any constant is right, since only differences of pressure accelerate them, but
+  /// discretely 2 V_i p sum_j V_j grad W_ij vanishes on regular arrangements only: the nearer to p, the
+  /// smaller.
+  void set_pressure_level(double level) { pressure_level_ = level; }
+
   /// du/dt and dV/dt of the particles as they stand, at time t; copies refreshed. pre: prepare() since
   /// particles changed
   void right_hand_side(Particles<D>& particles, double t);
@@ -94,6 +100,7 @@ class Dynamics {
   Shifting<D> shifting_;
   std::vector<std::unique_ptr<Term<D>>> terms_;
   bool surface_current_ = false;    // flags belong to the positions as they stand
+  double pressure_level_;           // [Pa] taken off in the pair loops
   double most_acceleration_ = 0.0;  // [m/s^2] of the last right-hand side, driven particles apart
 
   // Runge-Kutta: state at the start of the step and sum of weighted slopes (n_owned)

@@ -41,6 +41,17 @@ TEST(WindowDriverTest, StreamStaysUniformInLongIteratedWindows) {
   stream_stays_uniform<2>(8, coupler::Schedule::iterated, 5);
 }
 
+TEST(WindowDriverTest, StreamStaysUniformAtAnyPressure) {
+  constexpr double level = 5.0;  // 10 rho U^2
+  OpenBox<2> box(coupler::uniform_stream({0.8, 0.0, 0.6}, level), coupler::Schedule::serial, 1);
+  box.run(80);
+  ASSERT_GT(box.driver->ledger().n_injected, 0.0);
+  for (std::size_t i = 0; i < box.particles.n_owned; ++i) {
+    ASSERT_NEAR(box.particles.u[0][i], 0.8, 1e-12);
+    ASSERT_NEAR(box.particles.p[i], level, 1e-11);
+  }
+}
+
 TEST(WindowDriverTest, AnIteratedWindowEndsAsASerialOneOnEqualDonors) {
   // A steady flow has the same donors in every pass: what the first pass did must be undone completely.
   const auto flow = coupler::taylor_vortex(1.0, 0.5, 0.8, 0.0, {1.0, 0.0, 0.0});
