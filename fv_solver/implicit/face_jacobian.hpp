@@ -38,8 +38,11 @@ struct FaceState {
 /// unknowns (p / (rho0 c0), u), rows (mass c0 / rho0, momentum / rho0), so that the entries compare.
 ///
 ///   m = rho [ (u_L + u_R).S / 2 - S (p_R - p_L) / (2 rho c_p) ]
-///   F = m u_upwind + S (p_L + p_R)/2 - S rho c0 (u_R - u_L).n / 2 - rho nu S^2/V_f (u_R - u_L)
-/// in    area S [m^(D-1)], pointing from left to right; volume V_f of the face's cell [m^D]
+///   F = m u_upwind + S (p_L + p_R)/2 - S rho c0 (u_R - u_L).n / 2
+///       - rho nu/V_f [S^2 (u_R - u_L) + S (u_R - u_L).S]
+/// The last bracket is the full stress's compact part: friction along the face's normal counts twice. With
+/// once, the normal momentum of thin cells at a wall is under-relaxed so far that it grows from cycle to
+/// cycle. in    area S [m^(D-1)], pointing from left to right; volume V_f of the face's cell [m^D]
 template <int D, class T, class Area>
 inline void face_jacobian(const Area& area, const T& volume, const FaceState<D, T>& left,
                           const FaceState<D, T>& right, const CorrectionPhysics<D>& physics,
@@ -67,10 +70,11 @@ inline void face_jacobian(const Area& area, const T& volume, const FaceState<D, 
   m_right[0] = density_by_p * in - pressure_term;
   for (std::size_t k = 0; k < D; ++k) m_left[k + 1] = m_right[k + 1] = 0.5 * area[k];
 
-  const T friction = physics.fluid.viscosity * s2 / volume;
+  const T per_area2 = physics.fluid.viscosity / volume;
+  const T friction = per_area2 * s2;
   const T carry_left = out + friction;
   const T carry_right = in - friction;
-  const T acoustic_per_s = 0.5 * c0 / s;
+  const T along_normal_per_s2 = 0.5 * c0 / s + per_area2;
   for (std::size_t j = 0; j <= D; ++j) {
     by_left[0][j] = c0 * m_left[j];
     by_right[0][j] = c0 * m_right[j];
@@ -85,9 +89,9 @@ inline void face_jacobian(const Area& area, const T& volume, const FaceState<D, 
     by_left[i + 1][i + 1] += carry_left;
     by_right[i + 1][i + 1] += carry_right;
     for (std::size_t j = 0; j < D; ++j) {
-      const T acoustic = acoustic_per_s * area[i] * area[j];
-      by_left[i + 1][j + 1] += acoustic;
-      by_right[i + 1][j + 1] -= acoustic;
+      const T along_normal = along_normal_per_s2 * area[i] * area[j];
+      by_left[i + 1][j + 1] += along_normal;
+      by_right[i + 1][j + 1] -= along_normal;
     }
   }
 }
@@ -128,7 +132,11 @@ inline SmallMatrix<D> boundary_jacobian(EdgeCondition condition, const std::arra
     for (std::size_t i = 0; i < D; ++i) block[i + 1][0] += part * c0 * area[i];
   };
   const auto rub = [&] {  // the face's velocity is known
-    for (std::size_t i = 0; i < D; ++i) block[i + 1][i + 1] += 2.0 * physics.fluid.viscosity * s2 / volume;
+    const double rate = 2.0 * physics.fluid.viscosity / volume;
+    for (std::size_t i = 0; i < D; ++i) {
+      block[i + 1][i + 1] += rate * s2;
+      for (std::size_t j = 0; j < D; ++j) block[i + 1][j + 1] += rate * area[i] * area[j];
+    }
   };
   const auto carry = [&](double speed,
                          double part) {  // m = part (u.S + S p/(rho0 speed)), and what it carries

@@ -127,7 +127,8 @@ TEST(ImplicitLinesTest, FaceJacobianIsTheDerivativeOfItsFlux) {
     std::array<double, 4> f{c0 * m, 0, 0, 0};
     for (std::size_t k = 0; k < 3; ++k)
       f[k + 1] = m * left.u[k] + flow0 * l[k + 1] + 0.5 * c0 * area[k] * (l[0] + r[0]) -
-                 0.5 * c0 * area[k] / s * jump - 0.01 * s * s / volume * (r[k + 1] - l[k + 1]);
+                 0.5 * c0 * area[k] / s * jump -
+                 0.01 / volume * (s * s * (r[k + 1] - l[k + 1]) + area[k] * jump);
     return f;
   };
   for (std::size_t j = 0; j < 4; ++j) {  // linear in the corrections: unit vectors give the columns

@@ -149,5 +149,38 @@ TEST(ImplicitSolverTest, ThreeDimensionsConvergeAsTwo) {
   }
 }
 
+/// Channel between plates whose cells are thin at the walls: nu dt/h^2 = 33 there.
+TEST(ImplicitSolverTest, ThinCellsAtAWallConvergeAsOthers) {
+  constexpr int n = 32;
+  const double first = 3e-3, growth = 1.286;  // 16 cells from each wall to the middle
+  auto block = make_block<2>("channel", {24, n}, {true, false}, [=](const std::array<int, 2>& i) {
+    const int from_wall = std::min(i[1], n - i[1]);
+    const double z = first * std::expm1(from_wall * std::log(growth)) / (growth - 1.0);
+    const double half = first * std::expm1(n / 2 * std::log(growth)) / (growth - 1.0);
+    return std::array<double, 2>{2.0 * i[0] / 24, i[1] <= n / 2 ? z : 2.0 * half - z};
+  });
+  close_block(block, Condition::wall, Condition::wall);
+  Equations<2> equations;
+  equations.fluid.density = 1.0;
+  equations.fluid.viscosity = 0.01;
+  InnerTolerance tolerance;
+  Stepper<2> stepper({block}, equations, std::make_unique<MultigridSolver<2>>(), tolerance);
+  stepper.initialise(
+      [](const auto& x, double) {
+        PointState<2> q;
+        q.u = {1.0 + 0.3 * std::sin(M_PI * x[0]), 0.3 * std::cos(M_PI * x[0]) * std::sin(M_PI * x[1])};
+        return q;
+      },
+      0.0);
+  double cycles = 0.0;
+  constexpr int steps = 12, settled = 4;
+  for (int step = 0; step < steps; ++step) {
+    const StepReport report = stepper.advance(0.03);
+    EXPECT_TRUE(report.converged);
+    if (step >= settled) cycles += static_cast<double>(report.cycles) / (steps - settled);
+  }
+  EXPECT_LE(cycles, 6.0);
+}
+
 }  // namespace
 }  // namespace littoral::fv
