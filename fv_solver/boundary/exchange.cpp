@@ -10,7 +10,9 @@ Exchange<D>::Exchange(const std::vector<Block<D>>& blocks, OversetLinks<D> overs
   if (!overset_.empty()) contour_ = ClosedContour<D>(blocks);
   std::vector<Extent<D>> extents;
   for (const auto& block : blocks) extents.push_back(block.extent);
-  links_ = JoinLinks<D>(join_sides(blocks), extents, k_ghost);
+  const std::vector<JoinSide<D>> joins = join_sides(blocks);
+  links_ = JoinLinks<D>(joins, extents, k_ghost);
+  irregular_ = IrregularFaces<D>(blocks, joins, links_);
 }
 
 template <int D>

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "boundary/irregular_faces.hpp"
 #include "boundary/links.hpp"
 #include "grid/block.hpp"
 #include "overset/closed_contour.hpp"
@@ -25,12 +26,19 @@ class Exchange {
   /// are those relative to the hydrostatic reference. pre windows evaluated    comm local
   void states(const std::vector<Block<D>>& blocks, std::vector<State<D>>& q) const;
 
+  /// Makes the friction through every joined face one and the same for both blocks. pre states()
+  void share_fluxes(const std::vector<Block<D>>& blocks, const Fluid<D>& fluid,
+                    const std::vector<State<D>>& q, std::vector<Residual<D>>& r) const {
+    irregular_.share_friction(blocks, fluid, q, r);
+  }
+  const IrregularFaces<D>& irregular() const { return irregular_; }
   const JoinLinks<D>& links() const { return links_; }
   const OversetLinks<D>& overset() const { return overset_; }
   const ClosedContour<D>& closed_contour() const { return contour_; }
 
  private:
   JoinLinks<D> links_;
+  IrregularFaces<D> irregular_;
   OversetLinks<D> overset_;
   ClosedContour<D> contour_;
 };

@@ -12,6 +12,7 @@ void StepProblem<D>::evaluate(std::vector<State<D>>& q, std::vector<Residual<D>>
   exchange.states(blocks, q);
   for (std::size_t b = 0; b < blocks.size(); ++b)
     equations.residual(blocks[b], q[b], time, history[b], forcing[b], r[b]);
+  exchange.share_fluxes(blocks, equations.fluid, q, r);
   if (!exchange.closed_contour().empty() && equations.fluid.inverse_c2 == 0.0)
     exchange.closed_contour().close(blocks, r);
 }

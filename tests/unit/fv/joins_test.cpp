@@ -37,13 +37,15 @@ std::vector<Residual<D>> residuals(std::vector<Block<D>>& blocks, const Equation
     set_reference_pressure(block, equations.fluid);
     evaluate_windows(block, equations, 0.0);
   }
-  Exchange<D>(blocks).states(blocks, q);
+  const Exchange<D> exchange(blocks);
+  exchange.states(blocks, q);
   std::vector<Residual<D>> r(blocks.size());
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     History<D> none;
     none.resize(blocks[b].extent.size);
     equations.residual(blocks[b], q[b], BackwardDifference::first_order(0.1), none, Forcing<D>{}, r[b]);
   }
+  exchange.share_fluxes(blocks, equations.fluid, q, r);
   return r;
 }
 
@@ -336,6 +338,91 @@ TEST(JoinsTest, AFaceThatMeetsNobodyIsNamed) {
     const std::string text = e.what();
     EXPECT_NE(text.find("block 'left', face i_upper: 4 faces from cell (0)"), std::string::npos) << text;
   }
+}
+
+/// Three blocks around one vertex: no cell is beyond it for all of them. Velocities near the vertex only, so
+/// that nothing passes the walls: what leaves one block must enter another.
+TEST(JoinsTest, WhereThreeBlocksMeetAFaceStillHasOneFlux) {
+  constexpr int n = 8;
+  std::vector<Block<2>> blocks;
+  const auto ray = [](int k) {
+    const double a = M_PI * (0.5 + 2.0 / 3.0 * k);
+    return std::array<double, 2>{std::cos(a), std::sin(a)};
+  };
+  for (int k = 0; k < 3; ++k) {
+    blocks.push_back(make_block<2>("third" + std::to_string(k), {n, n}, {}, [&](const std::array<int, 2>& i) {
+      std::array<double, 2> x;
+      for (std::size_t d = 0; d < 2; ++d) x[d] = (i[0] * ray(k)[d] + i[1] * ray(k + 1)[d]) / n;
+      return x;
+    }));
+    close_with<2>(blocks.back(), Condition::wall);
+    for (auto& w : blocks.back().windows) w.request.kind = JoinRequest<2>::Kind::if_met;
+  }
+  ASSERT_EQ(find_joins(blocks).size(), 3u);
+  EXPECT_EQ(Exchange<2>(blocks).irregular().size(), 3u);
+  const Equations<2> equations = water<2>(0.0, 0.7);
+  std::vector<State<2>> q;
+  for (std::size_t b = 0; b < 3; ++b) {
+    q.push_back(random_state(blocks[b], 3 + static_cast<unsigned>(b)));
+    for_each_index<2>({}, blocks[b].extent.n, [&](const std::array<int, 2>& index) {
+      const auto c = static_cast<std::size_t>(blocks[b].extent.at(index));
+      if (std::max(index[0], index[1]) < n - 4) return;
+      q[b].p[c] = q[b].u[0][c] = q[b].u[1][c] = 0.0;
+    });
+  }
+  const auto r = residuals(blocks, equations, q);
+  // the time term is no flux
+  std::array<double, 3> sum{};
+  for (std::size_t b = 0; b < 3; ++b)
+    for_each_index<2>({}, blocks[b].extent.n, [&](const std::array<int, 2>& index) {
+      const auto c = static_cast<std::size_t>(blocks[b].extent.at(index));
+      sum[2] += r[b].mass[c];
+      for (std::size_t k = 0; k < 2; ++k)
+        sum[k] += r[b].momentum[k][c] - 10.0 * blocks[b].volume[c] * q[b].u[k][c];
+    });
+  for (const double total : sum) EXPECT_LT(std::abs(total), 1e-13);
+}
+
+/// Decaying vortices over skewed blocks turned at random: the solution of one block, and its order by the
+/// differences of the energy left on three grids.
+TEST(JoinsTest, DecayingVorticesKeepTheirOrderAcrossJoins) {
+  const double nu = 0.02, k = 2.0 * M_PI;
+  const auto flow = [=](const std::array<double, 2>& x, double) {
+    // in coordinates along the sheared box, whose periods are (1, 0) and (.25, 1)
+    const double a = k * (x[0] - 0.25 * x[1]), b = k * x[1];
+    PointState<2> q;  // of the stream function sin(a) sin(b) / k
+    q.u = {-0.25 * std::cos(a) * std::sin(b) + std::sin(a) * std::cos(b), -std::cos(a) * std::sin(b)};
+    return q;
+  };
+  const auto run = [&](const std::vector<Block<2>>& blocks, int n) {
+    InnerTolerance tolerance;
+    tolerance.drop = 1e-6;
+    auto stepper = std::make_unique<Stepper<2>>(blocks, water<2>(0.0, nu),
+                                                std::make_unique<MultigridSolver<2>>(), tolerance);
+    stepper->initialise(flow, 0.0);
+    for (int i = 0; i < n / 4; ++i) stepper->advance(0.2 / (n / 4));
+    return stepper;
+  };
+  const auto close = [](int, int) { return Window<2>{}; };
+  double energy[3];
+  for (int level = 0; level < 3; ++level) {
+    const int n = 16 << level;
+    const auto s = split_grid<2>({std::vector<int>{n / 4, n / 2, n / 4}, {n / 2, n / 2}}, {true, true},
+                                 wavy<2>, close, 11);
+    const auto one = run({s.whole}, n), many = run(s.parts, n);
+    double worst = 0.0;
+    energy[level] = 0.0;
+    s.for_each_cell_of_parts([&](std::size_t b, std::size_t part, std::size_t whole) {
+      for (std::size_t d = 0; d < 2; ++d) {
+        const double u = many->state()[b].u[d][part];
+        worst = std::max(worst, std::abs(u - one->state()[0].u[d][whole]));
+        energy[level] += 0.5 * s.parts[b].volume[part] * u * u;
+      }
+    });
+    EXPECT_LT(worst, 1e-5) << n;
+  }
+  EXPECT_GT(std::log2((energy[1] - energy[0]) / (energy[2] - energy[1])), 1.8)
+      << energy[0] << " " << energy[1] << " " << energy[2];
 }
 
 }  // namespace
