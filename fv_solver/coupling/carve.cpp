@@ -82,6 +82,25 @@ void check_depth(const Block<D>& block, const std::vector<int>& layer, int fring
   });
 }
 
+/// Layers of the fringe are counted within a block: none may have to go on behind a join.
+template <int D>
+void check_joins(const Block<D>& block, const std::vector<std::uint8_t>& inside, int fringe_layers) {
+  for (const Window<D>& w : block.windows) {
+    if (w.condition != Condition::join) continue;
+    const auto n = static_cast<std::size_t>(w.direction);
+    std::array<int, D> lower = w.lower, upper = w.upper;
+    lower[n] = w.side == 0 ? 0 : std::max(0, block.extent.n[n] - fringe_layers);
+    upper[n] = w.side == 0 ? std::min(block.extent.n[n], fringe_layers) : block.extent.n[n];
+    for_each_index<D>(lower, upper, [&](const std::array<int, D>& index) {
+      if (!inside[static_cast<std::size_t>(block.extent.at(index))]) return;
+      throw ConfigError("block '" + block.name + "', face '" + w.name +
+                        "': the SPH region reaches this join with another block, across which its fringe is not "
+                        "continued: let one block contain the region and " +
+                        std::to_string(fringe_layers) + " cells around it");
+    });
+  }
+}
+
 /// The nodes' coordinate nearest to a nominal face, among those over the face's own extent.
 template <int D>
 double nearest_node(const std::vector<Block<D>>& blocks, std::size_t direction, double face) {
@@ -161,6 +180,7 @@ Carving carve(std::vector<Block<D>>& blocks, const support::Scene& scene) {
         met[r] = true;
       }
     });
+    check_joins<D>(block, inside, scene.coupling.fringe_layers);
     const std::vector<int> layer = layers<D>(block, inside, scene.coupling.fringe_layers);
     if (imposed) check_depth<D>(block, layer, scene.coupling.fringe_layers);
     for_each_index<D>({}, block.extent.n, [&](const std::array<int, D>& index) {
