@@ -93,10 +93,11 @@ void check_joins(const Block<D>& block, const std::vector<std::uint8_t>& inside,
     upper[n] = w.side == 0 ? std::min(block.extent.n[n], fringe_layers) : block.extent.n[n];
     for_each_index<D>(lower, upper, [&](const std::array<int, D>& index) {
       if (!inside[static_cast<std::size_t>(block.extent.at(index))]) return;
-      throw ConfigError("block '" + block.name + "', face '" + w.name +
-                        "': the SPH region reaches this join with another block, across which its fringe is not "
-                        "continued: let one block contain the region and " +
-                        std::to_string(fringe_layers) + " cells around it");
+      throw ConfigError(
+          "block '" + block.name + "', face '" + w.name +
+          "': the SPH region reaches this join with another block, across which its fringe is not "
+          "continued: let one block contain the region and " +
+          std::to_string(fringe_layers) + " cells around it");
     });
   }
 }
