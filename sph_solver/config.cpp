@@ -25,7 +25,9 @@ const std::vector<std::pair<std::string, Precision>> k_precisions = {{"double", 
 const std::vector<std::pair<std::string, Integrator>> k_integrators = {{"rk4", Integrator::rk4},
                                                                        {"midpoint", Integrator::midpoint}};
 const std::vector<std::pair<std::string, GaugeConfig::Kind>> k_gauges = {
-    {"point", GaugeConfig::Kind::point}, {"elevation", GaugeConfig::Kind::elevation}};
+    {"point", GaugeConfig::Kind::point},
+    {"elevation", GaugeConfig::Kind::elevation},
+    {"pressure_disc", GaugeConfig::Kind::pressure_disc}};
 const std::vector<std::pair<std::string, Config::InitialDistribution>> k_distributions = {
     {"lattice", Config::InitialDistribution::lattice}, {"relaxed", Config::InitialDistribution::relaxed}};
 
@@ -99,9 +101,19 @@ void Config::bind(support::Binder& b) {
       [](support::Binder& item, GaugeConfig& gauge) {
         item.key("name", gauge.name).required().doc("Column prefix.");
         item.choice("kind", gauge.kind, k_gauges)
-            .doc("point: pressure and velocity; elevation: of the surface on a vertical line.");
+            .doc(
+                "point: pressure and velocity; elevation: of the surface on a vertical line; pressure_disc: "
+                "mean over a disc, as a sensor in a wall.");
         item.key("position", gauge.position).unit("m").required().doc("x, y, z.");
+        item.key("normal", gauge.normal).doc("Of the disc; pressure_disc only.");
+        item.key("diameter", gauge.diameter).unit("m").min(0).doc("Of the disc; pressure_disc only.");
       });
+  for (std::size_t k = 0; k < gauges.size(); ++k) {
+    const std::string at = "gauges[" + std::to_string(k) + "].";
+    if (gauges[k].kind != GaugeConfig::Kind::pressure_disc) continue;
+    b.check(gauges[k].diameter > 0.0, at + "diameter", "a pressure_disc needs a diameter above 0.");
+    b.check(norm(gauges[k].normal) > 0.0, at + "normal", "has no direction.");
+  }
   coupling.bind(b);
   const std::vector<std::string> known = {"velocity", "pressure", "density", "volume", "zone",
                                           "surface",  "normal",   "shift",   "id"};
@@ -124,6 +136,7 @@ RunConfig read_config(const std::string& path, const std::vector<std::string>& s
   binder.use_constants(config.scene.constants);
   config.sph.bind(binder);
   binder.finish();
+  for (auto& gauge : config.sph.gauges) gauge.dry_pressure = config.scene.fluid.reference_pressure;
   if (!std::isfinite(config.scene.fluid.sound_speed))
     throw ConfigError(
         document.resolve(config.sph.scene) +
@@ -134,10 +147,10 @@ RunConfig read_config(const std::string& path, const std::vector<std::string>& s
       if (config.scene.dimension == 3 || d != 1)
         for (const auto side : config.scene.domain.sides[d])
           closed = closed && side != support::Scene::Side::open;
-    if (!closed)
+    if (!closed || !config.scene.bodies.empty())
       throw ConfigError(path +
                         ": initial_distribution is relaxed, which wants a domain full of water without open "
-                        "sides. Use lattice here.");
+                        "sides and bodies. Use lattice here.");
   }
   return config;
 }
@@ -221,6 +234,19 @@ DomainBox<D> domain_of(const RunConfig& config) {
   return box;
 }
 
+template <int D>
+std::unique_ptr<Walls<D>> walls_of(const RunConfig& config, const std::array<double, D>& origin) {
+  if (config.scene.bodies.empty()) return nullptr;
+  const auto numerics = numerics_of<D>(config);
+  std::vector<Body> bodies;
+  for (const auto& spec : config.scene.bodies)
+    bodies.emplace_back(spec, D == 2, numerics.kernel_radius / numerics.eos.c);
+  return std::make_unique<Walls<D>>(std::move(bodies), numerics, domain_of<D>(config),
+                                    Lattice<D>{origin, numerics.spacing});
+}
+
+template std::unique_ptr<Walls<2>> walls_of<2>(const RunConfig&, const std::array<double, 2>&);
+template std::unique_ptr<Walls<3>> walls_of<3>(const RunConfig&, const std::array<double, 3>&);
 template Numerics<2> numerics_of<2>(const RunConfig&);
 template Numerics<3> numerics_of<3>(const RunConfig&);
 template DomainBox<2> domain_of<2>(const RunConfig&);

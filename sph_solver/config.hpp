@@ -1,10 +1,12 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "bodies/walls.hpp"
 #include "boundary/domain_box.hpp"
 #include "coupling/coupling_config.hpp"
 #include "fidelity.hpp"
@@ -16,10 +18,13 @@ namespace littoral::sph {
 
 /// A place where the flow is recorded each window.
 struct GaugeConfig {
-  enum class Kind { point, elevation };
+  enum class Kind { point, elevation, pressure_disc };
   std::string name;
   Kind kind = Kind::point;
   std::array<double, 3> position = {0, 0, 0};  // [m] elevation: z is ignored
+  std::array<double, 3> normal = {1, 0, 0};    // pressure_disc
+  double diameter = 0.0;                       // [m] pressure_disc
+  double dry_pressure = 0.0;                   // [Pa] what a dry place shows: the scene's reference pressure
 };
 
 /// Content of sph.yaml.
@@ -65,5 +70,9 @@ Numerics<D> numerics_of(const RunConfig& config);
 /// kernel radius
 template <int D>
 DomainBox<D> domain_of(const RunConfig& config);
+/// The scene's bodies filled with dummies on the lattice of the particles, which begins at `origin`; null
+/// without bodies. throws ConfigError, IoError
+template <int D>
+std::unique_ptr<Walls<D>> walls_of(const RunConfig& config, const std::array<double, D>& origin);
 
 }  // namespace littoral::sph

@@ -32,13 +32,13 @@ bool filled(const RegionBox<D>& box, const Point<D>& x, double spacing) {
 }  // namespace
 
 template <int D>
-void place_particles(const RunConfig& config, const Layers<D>& layers, Particles<D>& particles,
-                     const LatticeShare& share) {
+void place_particles(const RunConfig& config, const Layers<D>& layers, const Walls<D>* walls,
+                     Particles<D>& particles, const LatticeShare& share) {
   const auto& boxes = layers.boxes();
   for (std::size_t b = 0; b < boxes.size(); ++b) {
     const std::size_t first = particles.n_owned;
     fill_lattice<D>(boxes[b].outer_lower, boxes[b].outer_upper, config.sph.spacing, config.scene,
-                    numerics_of<D>(config).eos, particles, share);
+                    numerics_of<D>(config).eos, particles, share, walls);
     if (b == 0) continue;
     std::vector<char> twice(particles.n_owned, 0);
     for (std::size_t i = first; i < particles.n_owned; ++i)
@@ -49,7 +49,8 @@ void place_particles(const RunConfig& config, const Layers<D>& layers, Particles
   if (particles.next_id == 0)
     throw ConfigError(
         "the scene has no particle at the start: initial.surface is not below 0 at any lattice point of the "
-        "region. Check its sign (water where it is negative), the region's box and the spacing.");
+        "region outside the bodies. Check its sign (water where it is negative), the region's box and the "
+        "spacing.");
 }
 
 namespace {
@@ -69,8 +70,10 @@ double bytes_of_particle(const Numerics<D>& numerics) {
 template <int D>
 Prediction predict_in(const RunConfig& config, bool coupled) {
   Particles<D> particles;
-  const Dynamics<D> dynamics(numerics_of<D>(config), domain_of<D>(config));
-  place_particles<D>(config, region_of<D>(config, coupled), particles);
+  const auto layers = region_of<D>(config, coupled);
+  const Dynamics<D> dynamics(numerics_of<D>(config), domain_of<D>(config), nullptr,
+                             walls_of<D>(config, layers.boxes()[0].outer_lower));
+  place_particles<D>(config, layers, dynamics.walls(), particles);
   Prediction prediction;
   prediction.particles = particles.n_owned;
   prediction.dt = dynamics.stable_time_step();
@@ -95,7 +98,9 @@ std::string Prediction::text() const {
 
 template Layers<2> region_of<2>(const RunConfig&, bool);
 template Layers<3> region_of<3>(const RunConfig&, bool);
-template void place_particles<2>(const RunConfig&, const Layers<2>&, Particles<2>&, const LatticeShare&);
-template void place_particles<3>(const RunConfig&, const Layers<3>&, Particles<3>&, const LatticeShare&);
+template void place_particles<2>(const RunConfig&, const Layers<2>&, const Walls<2>*, Particles<2>&,
+                                 const LatticeShare&);
+template void place_particles<3>(const RunConfig&, const Layers<3>&, const Walls<3>*, Particles<3>&,
+                                 const LatticeShare&);
 
 }  // namespace littoral::sph

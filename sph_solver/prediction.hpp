@@ -15,10 +15,11 @@ namespace littoral::sph {
 template <int D>
 Layers<D> region_of(const RunConfig& config, bool coupled);
 
-/// The particles at the start, or one rank's share of them. throws ConfigError: there is none
+/// The particles at the start, or one rank's share of them, none inside a body (walls: null without bodies).
+/// throws ConfigError: there is none
 template <int D>
-void place_particles(const RunConfig& config, const Layers<D>& layers, Particles<D>& particles,
-                     const LatticeShare& share = {});
+void place_particles(const RunConfig& config, const Layers<D>& layers, const Walls<D>* walls,
+                     Particles<D>& particles, const LatticeShare& share = {});
 
 /// What a run will be, before it is one.
 struct Prediction {

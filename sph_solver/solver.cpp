@@ -38,10 +38,11 @@ Solver<D>::Solver(const RunConfig& config, const std::string& folder, support::L
       log_(log),
       partner_(std::move(partner)),
       ranks_(ranks_of<D>(comm, domain_of<D>(config))),
-      dynamics_(numerics_of<D>(config), domain_of<D>(config), ranks_.get()),
       layers_(region_of<D>(config, partner_ != nullptr)),
+      dynamics_(numerics_of<D>(config), domain_of<D>(config), ranks_.get(),
+                walls_of<D>(config, layers_.boxes()[0].outer_lower)),
       restart_(restart.empty() ? std::nullopt : std::optional(read_run_state(restart, config.scene))),
-      output_(folder, config, restart_, ranks_.get()) {
+      output_(folder, config, restart_, ranks_.get(), dynamics_.walls()) {
   if (partner_) driver_.emplace(config.scene, config.sph.coupling, dynamics_.numerics(), *partner_);
   // with a partner space is divided anew between windows only, when the partner can be told
   if (ranks_ && !partner_) ranks_->balance_with_migration(config.sph.load_drift);
@@ -80,7 +81,7 @@ std::int64_t Solver<D>::n_particles() {
 template <int D>
 void Solver<D>::place_particles() {
   const LatticeShare share = ranks_ ? LatticeShare{ranks_->rank(), ranks_->size()} : LatticeShare{};
-  sph::place_particles<D>(config_, layers_, particles_, share);
+  sph::place_particles<D>(config_, layers_, dynamics_.walls(), particles_, share);
   if (ranks_) ranks_->balance(particles_);
   if (config_.sph.initial_distribution != Config::InitialDistribution::relaxed) return;
   relax(particles_, dynamics_.numerics(), domain_of<D>(config_), ranks_.get());
@@ -248,13 +249,14 @@ template <int D>
 WorkCount Solver<D>::work_of_all(std::vector<double>& seconds) {
   WorkCount work = dynamics_.work();
   if (!ranks_) return work;
-  std::array<double, 3> parts = {static_cast<double>(work.particle_steps), static_cast<double>(work.pairs),
-                                 static_cast<double>(work.mirrored_back)};
+  std::array<double, 4> parts = {static_cast<double>(work.particle_steps), static_cast<double>(work.pairs),
+                                 static_cast<double>(work.mirrored_back), static_cast<double>(work.kept_out)};
   ranks_->take_sum(parts.data(), parts.size());
   ranks_->take_largest(seconds.data(), seconds.size());
   work.particle_steps = static_cast<std::int64_t>(parts[0]);
   work.pairs = static_cast<std::int64_t>(parts[1]);
   work.mirrored_back = static_cast<std::int64_t>(parts[2]);
+  work.kept_out = static_cast<std::int64_t>(parts[3]);
   return work;
 }
 
@@ -284,6 +286,7 @@ void Solver<D>::write_summary(double wall_time) {
                      {"end_time", time_},
                      {"list_builds", static_cast<double>(work.list_builds)},
                      {"mirrored_back", static_cast<double>(work.mirrored_back)},
+                     {"kept_out", static_cast<double>(work.kept_out)},
                      {"most_without_donors", static_cast<double>(most_without_donors_)},
                      {"pairs_per_second", pairs_per_second},
                      {"particle_steps_per_second", particle_steps_per_second}};
@@ -302,6 +305,9 @@ void Solver<D>::write_summary(double wall_time) {
     log_.warn(
         std::to_string(work.mirrored_back) +
         " times a particle had crossed a symmetry plane by less than half a spacing and was mirrored back");
+  if (work.kept_out > 0)
+    log_.warn(std::to_string(work.kept_out) +
+              " times a particle had entered a body by less than half a spacing and was put back");
 }
 
 template <int D>

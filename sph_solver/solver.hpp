@@ -61,10 +61,10 @@ class Solver {
   std::unique_ptr<coupler::FvPartner> partner_;
   std::unique_ptr<MpiRanks<D>> ranks_;  // null on one rank
   Particles<D> particles_;
+  Layers<D> layers_;
   Dynamics<D> dynamics_;
   std::optional<WindowDriver<D>> driver_;  // of the coupling, with a partner only
-  Layers<D> layers_;
-  std::optional<RunState> restart_;  // where this run goes on
+  std::optional<RunState> restart_;        // where this run goes on
   Output<D> output_;
   double time_ = 0.0;                    // [s]
   std::int64_t window_ = 0;              // of the next window

@@ -4,15 +4,16 @@
 #include <cmath>
 #include <limits>
 
+#include "io/pressure_disc.hpp"
 #include "physics/kernel.hpp"
 #include "physics/symmetric_matrix.hpp"
 
 namespace littoral::sph {
-namespace {
 
 template <int D>
-double coverage(const Particles<D>& particles, const NeighborList<D>& neighbors, const Kernel<D>& kernel,
-                const std::array<double, D>& x) {
+double coverage_at(const Particles<D>& particles, const NeighborList<D>& neighbors,
+                   const std::array<double, D>& x) {
+  const Kernel<D> kernel(neighbors.kernel_radius());
   double sum = 0.0;
   neighbors.for_each_near(x, [&](std::size_t j) {
     double r2 = 0.0;
@@ -21,8 +22,6 @@ double coverage(const Particles<D>& particles, const NeighborList<D>& neighbors,
   });
   return sum;
 }
-
-}  // namespace
 
 template <int D>
 std::optional<PointValue<D>> value_at(const Particles<D>& particles, const NeighborList<D>& neighbors,
@@ -86,7 +85,7 @@ std::optional<PointValue<D>> value_at(const Particles<D>& particles, const Neigh
 
 template <int D>
 std::optional<double> elevation_at(const Particles<D>& particles, const NeighborList<D>& neighbors,
-                                   const std::array<double, D>& x, double spacing) {
+                                   const std::array<double, D>& x, double spacing, const Walls<D>* walls) {
   constexpr double k_on_surface = 0.5;
   const Kernel<D> kernel(neighbors.kernel_radius());
   double top = -std::numeric_limits<double>::infinity(), bottom = -top;
@@ -101,7 +100,8 @@ std::optional<double> elevation_at(const Particles<D>& particles, const Neighbor
   const auto excess = [&](double z) {
     auto point = x;
     point[D - 1] = z;
-    return coverage<D>(particles, neighbors, kernel, point) - k_on_surface;
+    const double free = walls ? 1.0 - walls->coverage(point) : 1.0;
+    return coverage_at<D>(particles, neighbors, point) - k_on_surface * free;
   };
   double low = top + kernel.R, high = low;
   do {
@@ -123,6 +123,11 @@ std::vector<std::string> gauge_columns(const std::vector<GaugeConfig>& gauges, i
       columns.push_back(gauge.name + ".elevation");
       continue;
     }
+    if (gauge.kind == GaugeConfig::Kind::pressure_disc) {
+      columns.push_back(gauge.name + ".p");
+      columns.push_back(gauge.name + ".wet");
+      continue;
+    }
     for (const char* quantity : {"p", "u", "v", "w"})
       if (dimension == 3 || quantity[0] != 'v') columns.push_back(gauge.name + "." + quantity);
   }
@@ -131,14 +136,19 @@ std::vector<std::string> gauge_columns(const std::vector<GaugeConfig>& gauges, i
 
 template <int D>
 std::vector<double> gauge_values(const std::vector<GaugeConfig>& gauges, const Particles<D>& particles,
-                                 const NeighborList<D>& neighbors, double spacing) {
+                                 const NeighborList<D>& neighbors, double spacing, const Walls<D>* walls) {
   constexpr double k_dry = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> values;
   for (const auto& gauge : gauges) {
     std::array<double, D> x;
     for (std::size_t d = 0; d < D; ++d) x[d] = gauge.position[scene_axis<D>(d)];
     if (gauge.kind == GaugeConfig::Kind::elevation) {
-      values.push_back(elevation_at<D>(particles, neighbors, x, spacing).value_or(k_dry));
+      values.push_back(elevation_at<D>(particles, neighbors, x, spacing, walls).value_or(k_dry));
+      continue;
+    }
+    if (gauge.kind == GaugeConfig::Kind::pressure_disc) {
+      const DiscPressure disc = disc_pressure<D>(gauge, particles, neighbors, walls);
+      values.insert(values.end(), {disc.p, disc.wet});
       continue;
     }
     const auto value = value_at<D>(particles, neighbors, x);
@@ -148,17 +158,19 @@ std::vector<double> gauge_values(const std::vector<GaugeConfig>& gauges, const P
   return values;
 }
 
+template double coverage_at<2>(const Particles<2>&, const NeighborList<2>&, const std::array<double, 2>&);
+template double coverage_at<3>(const Particles<3>&, const NeighborList<3>&, const std::array<double, 3>&);
 template std::optional<PointValue<2>> value_at<2>(const Particles<2>&, const NeighborList<2>&,
                                                   const std::array<double, 2>&);
 template std::optional<PointValue<3>> value_at<3>(const Particles<3>&, const NeighborList<3>&,
                                                   const std::array<double, 3>&);
 template std::optional<double> elevation_at<2>(const Particles<2>&, const NeighborList<2>&,
-                                               const std::array<double, 2>&, double);
+                                               const std::array<double, 2>&, double, const Walls<2>*);
 template std::optional<double> elevation_at<3>(const Particles<3>&, const NeighborList<3>&,
-                                               const std::array<double, 3>&, double);
+                                               const std::array<double, 3>&, double, const Walls<3>*);
 template std::vector<double> gauge_values<2>(const std::vector<GaugeConfig>&, const Particles<2>&,
-                                             const NeighborList<2>&, double);
+                                             const NeighborList<2>&, double, const Walls<2>*);
 template std::vector<double> gauge_values<3>(const std::vector<GaugeConfig>&, const Particles<3>&,
-                                             const NeighborList<3>&, double);
+                                             const NeighborList<3>&, double, const Walls<3>*);
 
 }  // namespace littoral::sph

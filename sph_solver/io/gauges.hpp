@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bodies/walls.hpp"
 #include "config.hpp"
 #include "neighbors/neighbor_list.hpp"
 #include "particles/particles.hpp"
@@ -23,17 +24,24 @@ template <int D>
 std::optional<PointValue<D>> value_at(const Particles<D>& particles, const NeighborList<D>& neighbors,
                                       const std::array<double, D>& x);
 
+/// sum V W at a point: 1 in the water, 1/2 on a plane surface.
+template <int D>
+double coverage_at(const Particles<D>& particles, const NeighborList<D>& neighbors,
+                   const std::array<double, D>& x);
+
 /// Height of the surface on the vertical line through x: the highest level where sum V W = 1/2, as on a plane
 /// surface. It changes smoothly in time, since no particle is singled out. Absent where the line meets no
-/// water.
+/// water. Next to bodies half of what they leave free counts. walls: null without bodies
 template <int D>
 std::optional<double> elevation_at(const Particles<D>& particles, const NeighborList<D>& neighbors,
-                                   const std::array<double, D>& x, double spacing);
+                                   const std::array<double, D>& x, double spacing,
+                                   const Walls<D>* walls = nullptr);
 
 /// Column names of gauges.csv after `time`, and one row of values; NaN where there is no water.
 std::vector<std::string> gauge_columns(const std::vector<GaugeConfig>& gauges, int dimension);
 template <int D>
 std::vector<double> gauge_values(const std::vector<GaugeConfig>& gauges, const Particles<D>& particles,
-                                 const NeighborList<D>& neighbors, double spacing);
+                                 const NeighborList<D>& neighbors, double spacing,
+                                 const Walls<D>* walls = nullptr);
 
 }  // namespace littoral::sph

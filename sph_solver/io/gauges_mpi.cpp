@@ -36,7 +36,8 @@ std::vector<std::int32_t> near_gauges(const std::vector<GaugeConfig>& gauges, co
         const double r = distance_along(box, d, particles.x[d][i], gauge.position[scene_axis<D>(d)]);
         r2 += r * r;
       }
-      return r2 < reach * reach;
+      const double within = reach + 0.5 * gauge.diameter;
+      return r2 < within * within;
     };
     if (std::any_of(gauges.begin(), gauges.end(), is_near)) chosen.push_back(static_cast<std::int32_t>(i));
   }
@@ -46,7 +47,8 @@ std::vector<std::int32_t> near_gauges(const std::vector<GaugeConfig>& gauges, co
 template <int D>
 std::vector<double> gauge_values_on_root(const std::vector<GaugeConfig>& gauges,
                                          const Particles<D>& particles, const DomainBox<D>& box,
-                                         const NeighborList<D>& neighbors, double spacing, MPI_Comm comm) {
+                                         const NeighborList<D>& neighbors, double spacing, MPI_Comm comm,
+                                         const Walls<D>* walls) {
   const double reach = neighbors.reach();
   Particles<D> around = gather_on_root(particles, near_gauges(gauges, particles, box, reach), comm);
   int rank = 0;
@@ -55,7 +57,7 @@ std::vector<double> gauge_values_on_root(const std::vector<GaugeConfig>& gauges,
   Ghosts<D>(box).create(around, reach);
   NeighborList<D> lists(neighbors.kernel_radius(), reach - neighbors.kernel_radius());
   lists.build(around);
-  return gauge_values(gauges, around, lists, spacing);
+  return gauge_values(gauges, around, lists, spacing, walls);
 }
 
 template std::vector<std::int32_t> near_gauges<2>(const std::vector<GaugeConfig>&, const Particles<2>&,
@@ -64,9 +66,9 @@ template std::vector<std::int32_t> near_gauges<3>(const std::vector<GaugeConfig>
                                                   const DomainBox<3>&, double);
 template std::vector<double> gauge_values_on_root<2>(const std::vector<GaugeConfig>&, const Particles<2>&,
                                                      const DomainBox<2>&, const NeighborList<2>&, double,
-                                                     MPI_Comm);
+                                                     MPI_Comm, const Walls<2>*);
 template std::vector<double> gauge_values_on_root<3>(const std::vector<GaugeConfig>&, const Particles<3>&,
                                                      const DomainBox<3>&, const NeighborList<3>&, double,
-                                                     MPI_Comm);
+                                                     MPI_Comm, const Walls<3>*);
 
 }  // namespace littoral::sph

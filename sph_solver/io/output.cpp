@@ -107,15 +107,20 @@ struct Stopwatch {
 
 template <int D>
 Output<D>::Output(const std::string& folder, const RunConfig& config, const std::optional<RunState>& restart,
-                  MpiRanks<D>* ranks)
+                  MpiRanks<D>* ranks, const Walls<D>* walls)
     : config_(config),
       ranks_(ranks),
+      walls_(walls),
       gravity_(numerics_of<D>(config).gravity),
       last_fields_(restart ? restart->last_fields : 0.0) {
   if (ranks_ != nullptr && ranks_->rank() != 0) return;
-  scalars_.emplace(series(folder + "/scalars.csv", scalar_columns(config.scene), restart,
+  auto columns = scalar_columns(config.scene);
+  const auto loads = body_columns(config.scene.bodies, D);
+  columns.insert(columns.end(), loads.begin(), loads.end());
+  scalars_.emplace(series(folder + "/scalars.csv", columns, restart,
                           "SI units; in 2-D per metre of width; seconds_: wall time so far"));
   fields_.emplace(folder, "particles", restart.has_value(), restart ? restart->time : 0.0);
+  if (walls_ != nullptr) bodies_.emplace(folder, restart.has_value(), restart ? restart->time : 0.0);
   if (!config.sph.gauges.empty())
     gauges_.emplace(
         series(folder + "/gauges.csv", with_time(gauge_columns(config.sph.gauges, D)), restart, ""));
@@ -148,9 +153,9 @@ std::vector<double> Output<D>::gauge_row(const Particles<D>& particles,
                                          const NeighborList<D>& neighbors) const {
   const auto& gauges = config_.sph.gauges;
   if (gauges.empty()) return {};
-  if (ranks_ == nullptr) return gauge_values(gauges, particles, neighbors, config_.sph.spacing);
+  if (ranks_ == nullptr) return gauge_values(gauges, particles, neighbors, config_.sph.spacing, walls_);
   return gauge_values_on_root(gauges, particles, domain_of<D>(config_), neighbors, config_.sph.spacing,
-                              ranks_->comm());
+                              ranks_->comm(), walls_);
 }
 
 template <int D>
@@ -161,6 +166,9 @@ void Output<D>::write_rows(const Moment& now, const Particles<D>& particles, con
   LayerCount in_layers = now.layers;
   if (ranks_ != nullptr) add_up(sum, in_layers);
   auto gauges = gauge_row(particles, dynamics.neighbors());
+  std::vector<double> loads;
+  if (walls_ != nullptr) loads = body_values(walls_->loads(), D);
+  if (ranks_ != nullptr && !loads.empty()) ranks_->take_sum(loads.data(), loads.size());
   if (!scalars_) return;
   const auto& ledger = now.ledger;
   std::vector<double> row = {now.time,
@@ -192,6 +200,7 @@ void Output<D>::write_rows(const Moment& now, const Particles<D>& particles, con
   }
   for (std::size_t phase = 0; phase < k_phase_names.size(); ++phase) row.push_back(dynamics.seconds()[phase]);
   row.insert(row.end(), {seconds_, now.waited});
+  row.insert(row.end(), loads.begin(), loads.end());
   scalars_->row(row);
   if (!gauges_) return;
   gauges.insert(gauges.begin(), now.time);
@@ -207,6 +216,7 @@ void Output<D>::write_fields(double time, const Particles<D>& particles) {
     const Particles<D> all = gather_on_root(particles, ranks_->comm());
     if (fields_) write_points(time, all);
   }
+  if (bodies_) bodies_->write(time, *walls_);
   last_fields_ = time;
 }
 

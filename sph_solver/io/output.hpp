@@ -8,6 +8,7 @@
 #include "coupling/drive_layers.hpp"
 #include "coupling/particle_exchange.hpp"
 #include "coupling/zones.hpp"
+#include "io/body_output.hpp"
 #include "io/checkpoint.hpp"
 #include "io/energies.hpp"
 #include "littoral/coupler/partner.hpp"
@@ -23,9 +24,10 @@ template <int D>
 class Output {
  public:
   /// folder: OUT/sph; restart: where the run goes on, or absent. Rows later than that are cut off. ranks:
-  /// null on one rank; else rank 0 writes for all, and every write is collective. throws IoError
+  /// null on one rank; else rank 0 writes for all, and every write is collective. walls: null without bodies.
+  /// throws IoError
   Output(const std::string& folder, const RunConfig& config, const std::optional<RunState>& restart = {},
-         MpiRanks<D>* ranks = nullptr);
+         MpiRanks<D>* ranks = nullptr, const Walls<D>* walls = nullptr);
 
   /// True if a field is due at `time`.
   bool fields_due(double time) const;
@@ -60,11 +62,13 @@ class Output {
 
   RunConfig config_;
   MpiRanks<D>* ranks_;
+  const Walls<D>* walls_;
   std::array<double, D> gravity_{};
   // of the rank that writes
   std::optional<support::CsvSeries> scalars_;
   std::optional<support::CsvSeries> gauges_;
   std::optional<support::FieldSeries> fields_;
+  std::optional<BodyPoints<D>> bodies_;
   double last_fields_ = 0.0;
   double seconds_ = 0.0;
 };

@@ -9,7 +9,7 @@ namespace littoral::sph {
 template <int D>
 void fill_lattice(const std::array<double, D>& lower, const std::array<double, D>& upper, double spacing,
                   const support::Scene& scene, const LinearEos& eos, Particles<D>& particles,
-                  const LatticeShare& share) {
+                  const LatticeShare& share, const Walls<D>* walls) {
   constexpr double k_round_off = 1e-9;  // a row whose centre lies on the upper face to round-off stays out
   const auto& start = scene.initial;
   std::array<long, D> n;
@@ -28,6 +28,7 @@ void fill_lattice(const std::array<double, D>& lower, const std::array<double, D
       x[scene_axis<D>(d)] = born.x[d];
     }
     if (start.surface && !((*start.surface)(x[0], x[1], x[2], 0.0) < 0.0)) continue;
+    if (walls != nullptr && walls->inside(born.x)) continue;
     if (place < first || place >= last) {
       ++particles.next_id;
       continue;
@@ -59,8 +60,10 @@ void set_start_states(const support::Scene& scene, const LinearEos& eos, Particl
 template void set_start_states<2>(const support::Scene&, const LinearEos&, Particles<2>&);
 template void set_start_states<3>(const support::Scene&, const LinearEos&, Particles<3>&);
 template void fill_lattice<2>(const std::array<double, 2>&, const std::array<double, 2>&, double,
-                              const support::Scene&, const LinearEos&, Particles<2>&, const LatticeShare&);
+                              const support::Scene&, const LinearEos&, Particles<2>&, const LatticeShare&,
+                              const Walls<2>*);
 template void fill_lattice<3>(const std::array<double, 3>&, const std::array<double, 3>&, double,
-                              const support::Scene&, const LinearEos&, Particles<3>&, const LatticeShare&);
+                              const support::Scene&, const LinearEos&, Particles<3>&, const LatticeShare&,
+                              const Walls<3>*);
 
 }  // namespace littoral::sph

@@ -16,12 +16,14 @@ constexpr double k_mirror_tolerance = 0.5;  // of dx: how far through a symmetry
 }  // namespace
 
 template <int D>
-Dynamics<D>::Dynamics(const Numerics<D>& numerics, const DomainBox<D>& box, OtherRanks<D>* others)
+Dynamics<D>::Dynamics(const Numerics<D>& numerics, const DomainBox<D>& box, OtherRanks<D>* others,
+                      std::unique_ptr<Walls<D>> walls)
     : numerics_(numerics),
       others_(others),
       ghosts_(box, others),
       neighbors_(numerics.kernel_radius, numerics.skin),
       shifting_(numerics.reference_velocity, numerics.spacing),
+      walls_(std::move(walls)),
       pressure_level_(numerics.eos.p0) {
   if (numerics.precision == Precision::mixed) rows_.template emplace<PairRows<D, float>>();
   double g = 0.0;
@@ -78,6 +80,7 @@ template <int D>
 void Dynamics<D>::build_lists(Particles<D>& particles) {
   ghosts_.create(particles, neighbors_.reach());
   neighbors_.build(particles, cell_side(particles, neighbors_.least_cell_side(), others_));
+  if (walls_) walls_->build(particles);
   ++work_.list_builds;
 }
 
@@ -85,6 +88,11 @@ template <int D>
 void Dynamics<D>::prepare(Particles<D>& particles, double t, StepHooks<D>* hooks, double dt) {
   {
     const PhaseSeconds::Scope scope(seconds_, Phase::lists);
+    if (walls_) {
+      walls_->move_to(t);
+      work_.kept_out +=
+          static_cast<std::int64_t>(walls_->keep_out(particles, k_mirror_tolerance * numerics_.spacing, t));
+    }
     // Lists that would become outdated in the middle of the step are built now: only here can particles that
     // left through a periodic face be brought back, so that none strays further than half the skin.
     if (outdated(particles, dt)) {
@@ -96,12 +104,17 @@ void Dynamics<D>::prepare(Particles<D>& particles, double t, StepHooks<D>* hooks
       surface_current_ = false;
     } else {
       ghosts_.refresh(particles);
+      if (walls_ && walls_->outdated()) walls_->build(particles);
     }
+  }
+  if (walls_ && (numerics_.free_surface || numerics_.shifting)) {
+    const PhaseSeconds::Scope scope(seconds_, Phase::walls);
+    walls_->find_support(particles, neighbors_);
   }
   if (numerics_.free_surface && !surface_current_) {
     const PhaseSeconds::Scope scope(seconds_, Phase::surface);
     surface_current_ = true;
-    surface_.detect(particles, neighbors_, ghosts_);
+    surface_.detect(particles, neighbors_, ghosts_, walls_ ? &walls_->support() : nullptr);
     if (hooks != nullptr) hooks->adjust_surface(particles, t);
     surface_.mark_near(particles, neighbors_, ghosts_);
   }
@@ -115,7 +128,8 @@ void Dynamics<D>::pair_loops(const Particles<D>& particles, PairRows<D, Real>& r
     const PhaseSeconds::Scope scope(seconds_, Phase::gradients);
     rows.pack_states(particles, Kernel<D>(numerics_.kernel_radius), pressure_level_);
     if (second_order) {
-      compute_gradients(rows, neighbors_, gradients_);  // (S3)
+      compute_gradients(rows, neighbors_, gradients_);                           // (S3)
+      if (walls_) walls_->correct_gradients(particles, neighbors_, gradients_);  // (S13)
       ghosts_.refresh(gradients_, particles.n_owned);
     }
   }
@@ -131,9 +145,16 @@ void Dynamics<D>::right_hand_side(Particles<D>& particles, double t) {
   {
     const PhaseSeconds::Scope scope(seconds_, Phase::lists);
     ghosts_.refresh(particles);
-    if (outdated(particles, 0.0)) build_lists(particles);  // in the middle of a step: no sorting
+    if (outdated(particles, 0.0))
+      build_lists(particles);  // in the middle of a step: no sorting
+    else if (walls_ && walls_->outdated())
+      walls_->build(particles);
   }
   std::visit([&](auto& rows) { pair_loops(particles, rows); }, rows_);
+  if (walls_) {
+    const PhaseSeconds::Scope scope(seconds_, Phase::walls);
+    walls_->add_rates(particles, gradients_, pressure_level_, rate_);  // (S12), (S14)
+  }
   const PhaseSeconds::Scope scope(seconds_, Phase::terms);
   for (const auto& term : terms_) term->add(particles, neighbors_, t, rate_);
 }
@@ -147,13 +168,17 @@ void Dynamics<D>::step(Particles<D>& particles, double t, double dt, StepHooks<D
   prepare(particles, t, hooks, dt);
   if (numerics_.shifting) {
     const PhaseSeconds::Scope scope(seconds_, Phase::shift);
-    shifting_.compute(particles, neighbors_, numerics_.free_surface ? &surface_ : nullptr);  // (S10)
+    shifting_.compute(particles, neighbors_, numerics_.free_surface ? &surface_ : nullptr,
+                      walls_ ? &walls_->support() : nullptr);  // (S10)
     if (hooks != nullptr) hooks->adjust_shift(particles, t);
   }
   remember_start(particles);
   const Stages stages = stages_of(numerics_.integrator);
+  if (walls_) walls_->begin_step(dt);
   for (std::size_t k = 0; k < stages.count; ++k) {
-    right_hand_side(particles, stages.time(k, t, dt));  // (S3)-(S8)
+    if (walls_) walls_->move_to(stages.time(k, t, dt));
+    right_hand_side(particles, stages.time(k, t, dt));  // (S3)-(S8), (S12)-(S14)
+    if (walls_) walls_->add_stage_loads(particles, stages[k].weight);
     const bool last = k + 1 == stages.count;
     {
       const PhaseSeconds::Scope scope(seconds_, Phase::update);

@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "bodies/walls.hpp"
 #include "boundary/domain_box.hpp"
 #include "boundary/ghosts.hpp"
 #include "neighbors/neighbor_list.hpp"
@@ -29,6 +30,7 @@ struct WorkCount {
   std::int64_t pairs = 0;  // directed pairs of lists seen by the flux loop
   std::int64_t list_builds = 0;
   std::int64_t mirrored_back = 0;  // particles that had crossed a symmetry plane by less than half a spacing
+  std::int64_t kept_out = 0;       // particles that had entered a body by less than half a spacing
 };
 
 /// Advances the particles by Runge-Kutta steps of (x, u, V), classical ones unless numerics say otherwise.
@@ -37,7 +39,9 @@ template <int D>
 class Dynamics {
  public:
   /// others: the program's other ranks, which then make every step together; null: there are none
-  Dynamics(const Numerics<D>& numerics, const DomainBox<D>& box, OtherRanks<D>* others = nullptr);
+  /// walls: null where the scene has no bodies
+  Dynamics(const Numerics<D>& numerics, const DomainBox<D>& box, OtherRanks<D>* others = nullptr,
+           std::unique_ptr<Walls<D>> walls = nullptr);
 
   /// Largest stable step for the particles as they are (S11): (16), and a limit from the accelerations of the
   /// last right-hand side. The same on all ranks
@@ -54,7 +58,11 @@ class Dynamics {
 
   /// The particles were changed from outside (put back to an earlier state, say): lists and copies are made
   /// anew.
-  void forget_lists() { neighbors_.forget(), surface_current_ = false; }
+  void forget_lists() {
+    neighbors_.forget();
+    surface_current_ = false;
+    if (walls_) walls_->forget();
+  }
 
   /// Pressure taken off in the pair loops from now on [Pa]; at first that of the surface, p0. For flows
   /// without a surface any constant is right, since only differences of pressure accelerate them, but
@@ -75,6 +83,7 @@ class Dynamics {
   const Ghosts<D>& ghosts() const { return ghosts_; }
   Ghosts<D>& ghosts() { return ghosts_; }
   const SurfaceDetection<D>& surface() const { return surface_; }
+  const Walls<D>* walls() const { return walls_.get(); }  ///< null: no bodies
   const Numerics<D>& numerics() const { return numerics_; }
   const PhaseSeconds& seconds() const { return seconds_; }
   const WorkCount& work() const { return work_; }
@@ -99,6 +108,7 @@ class Dynamics {
   SurfaceDetection<D> surface_;
   Shifting<D> shifting_;
   std::vector<std::unique_ptr<Term<D>>> terms_;
+  std::unique_ptr<Walls<D>> walls_;
   bool surface_current_ = false;    // flags belong to the positions as they stand
   double pressure_level_;           // [Pa] taken off in the pair loops
   double most_acceleration_ = 0.0;  // [m/s^2] of the last right-hand side, driven particles apart

@@ -7,9 +7,20 @@
 namespace littoral::sph {
 
 /// Wall time of the parts of a step.
-enum class Phase : std::size_t { lists, surface, shift, gradients, fluxes, terms, update, hooks, count };
+enum class Phase : std::size_t {
+  lists,
+  surface,
+  shift,
+  gradients,
+  fluxes,
+  walls,
+  terms,
+  update,
+  hooks,
+  count
+};
 constexpr std::array<const char*, static_cast<std::size_t>(Phase::count)> k_phase_names = {
-    "lists", "surface", "shift", "gradients", "fluxes", "terms", "update", "coupling"};
+    "lists", "surface", "shift", "gradients", "fluxes", "walls", "terms", "update", "coupling"};
 
 class PhaseSeconds {
  public:

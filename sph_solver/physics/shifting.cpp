@@ -34,7 +34,7 @@ Shifting<D>::Shifting(double reference_velocity, double spacing)
 
 template <int D>
 void Shifting<D>::compute(Particles<D>& particles, const NeighborList<D>& neighbors,
-                          const SurfaceDetection<D>* surface) const {
+                          const SurfaceDetection<D>* surface, const WallSupport<D>* walls) const {
   const Kernel<D> kernel(neighbors.kernel_radius());
   const auto n = static_cast<std::ptrdiff_t>(particles.n_owned);
 #pragma omp parallel for schedule(static)
@@ -44,22 +44,37 @@ void Shifting<D>::compute(Particles<D>& particles, const NeighborList<D>& neighb
     auto crowding =
         sum_pairs(particles, kernel, i, neighbors.list() + begin, neighbors.start()[i + 1] - begin);
     double length = 0.0;
-    for (double& component : crowding) {
-      component *= kernel.R * nominal_volume_;
-      length += component * component;
+    const auto by_walls = walls ? walls->crowding(i) : std::array<double, D>{};
+    for (std::size_t d = 0; d < D; ++d) {
+      crowding[d] = kernel.R * (nominal_volume_ * crowding[d] + by_walls[d]);
+      length += crowding[d] * crowding[d];
     }
     length = std::sqrt(length);
     const double factor = -velocity_ * (length > k_longest ? k_longest / length : 1.0);
     for (std::size_t d = 0; d < D; ++d) particles.shift[d][i] = factor * crowding[d];
   }
-  if (surface == nullptr) return;
+  if (surface != nullptr) restrict_to_surface(particles, *surface);
+  if (walls == nullptr) return;
+#pragma omp parallel for schedule(static)
+  for (std::ptrdiff_t row = 0; row < n; ++row) {
+    const auto i = static_cast<std::size_t>(row);
+    std::array<double, D> shift;
+    for (std::size_t d = 0; d < D; ++d) shift[d] = particles.shift[d][i];
+    walls->keep_off(i, shift);
+    for (std::size_t d = 0; d < D; ++d) particles.shift[d][i] = shift[d];
+  }
+}
+
+template <int D>
+void Shifting<D>::restrict_to_surface(Particles<D>& particles, const SurfaceDetection<D>& surface) const {
+  const auto n = static_cast<std::ptrdiff_t>(particles.n_owned);
 #pragma omp parallel for schedule(static)
   for (std::ptrdiff_t row = 0; row < n; ++row) {
     const auto i = static_cast<std::size_t>(row);
     if (particles.surface[i] == SurfaceFlag::none) continue;
     double outward = 0.0;
     for (std::size_t d = 0; d < D; ++d) outward += particles.shift[d][i] * particles.normal[d][i];
-    const double ramp = surface->distance()[i];
+    const double ramp = surface.distance()[i];
     for (std::size_t d = 0; d < D; ++d)
       particles.shift[d][i] = ramp * (particles.shift[d][i] - outward * particles.normal[d][i]);
   }

@@ -16,11 +16,14 @@ template <int D>
 class Shifting {
  public:
   Shifting(double reference_velocity, double spacing);
-  /// out: particles.shift. surface: null where the scene has no free surface.
-  void compute(Particles<D>& particles, const NeighborList<D>& neighbors,
-               const SurfaceDetection<D>* surface) const;
+  /// out: particles.shift. surface: null where the scene has no free surface; walls: null where it has no
+  /// bodies.
+  void compute(Particles<D>& particles, const NeighborList<D>& neighbors, const SurfaceDetection<D>* surface,
+               const WallSupport<D>* walls = nullptr) const;
 
  private:
+  void restrict_to_surface(Particles<D>& particles, const SurfaceDetection<D>& surface) const;
+
   double velocity_;        // U [m/s]
   double nominal_volume_;  // dx^D [m^D]
 };

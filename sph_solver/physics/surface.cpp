@@ -59,11 +59,13 @@ struct Normals {
 
 template <int D>
 Normals<D> outward_normals(const Particles<D>& particles, const Kernel<D>& kernel,
-                           const std::vector<double>& lambda, const SymmetricMatrix<D>& B, std::size_t i,
-                           const std::int32_t* list, std::size_t count) {
+                           const std::vector<double>& lambda, const SymmetricMatrix<D>& B,
+                           const std::array<double, D>& crowded, std::size_t i, const std::int32_t* list,
+                           std::size_t count) {
   constexpr double k_least_gradient = 0.02;    // over R: a plane surface has about 1
   constexpr double k_least_eigenvalue = 0.05;  // of B, below which its inverse only amplifies noise
   std::array<double, D> decrease{}, emptiness{};
+  for (std::size_t d = 0; d < D; ++d) emptiness[d] = -crowded[d];  // by walls: no void
   for (std::size_t k = 0; k < count; ++k) {
     const auto j = static_cast<std::size_t>(list[k]);
     const auto x = separation(particles, i, j);
@@ -100,7 +102,7 @@ bool something_above(const Particles<D>& particles, double R, const std::array<d
 
 template <int D>
 void SurfaceDetection<D>::detect(Particles<D>& particles, const NeighborList<D>& neighbors,
-                                 const Ghosts<D>& ghosts) {
+                                 const Ghosts<D>& ghosts, const WallSupport<D>* walls) {
   const Kernel<D> kernel(neighbors.kernel_radius());
   lambda_.resize(particles.size());
   B_.resize(particles.n_owned);
@@ -110,7 +112,7 @@ void SurfaceDetection<D>::detect(Particles<D>& particles, const NeighborList<D>&
   for (std::ptrdiff_t row = 0; row < n; ++row) {
     const auto i = static_cast<std::size_t>(row);
     B_[i] = renormalisation(particles, kernel, i, neighbors.list() + start[i], start[i + 1] - start[i]);
-    lambda_[i] = B_[i].smallest_eigenvalue();
+    lambda_[i] = (walls ? B_[i] + walls->renormalisation(i) : B_[i]).smallest_eigenvalue();
   }
   ghosts.refresh_scalar(lambda_, particles.n_owned);
 
@@ -122,9 +124,12 @@ void SurfaceDetection<D>::detect(Particles<D>& particles, const NeighborList<D>&
     if (lambda_[i] > k_interior_above) continue;
     const auto* list = neighbors.list() + start[i];
     const std::size_t count = start[i + 1] - start[i];
-    const auto normals = outward_normals<D>(particles, kernel, lambda_, B_[i], i, list, count);
+    const auto crowded = walls ? walls->crowding(i) : std::array<double, D>{};
+    const auto normals = outward_normals<D>(particles, kernel, lambda_, B_[i], crowded, i, list, count);
     const auto is_open = [&](const std::array<double, D>& normal) {
-      return dot<D>(normal, normal) > 0.0 && !something_above<D>(particles, kernel.R, normal, i, list, count);
+      return dot<D>(normal, normal) > 0.0 &&
+             !something_above<D>(particles, kernel.R, normal, i, list, count) &&
+             !(walls && walls->something_above(normal, i));
     };
     // Next to an edge of the water grad lambda points along the surface to the edge rather than out of it,
     // and across a sheet of two rows it vanishes; where the support is empty serves there.

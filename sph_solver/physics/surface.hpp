@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "bodies/wall_support.hpp"
 #include "boundary/ghosts.hpp"
 #include "neighbors/neighbor_list.hpp"
 #include "particles/particles.hpp"
@@ -22,7 +23,9 @@ class SurfaceDetection {
 
   /// out: particles.surface (surface or none) and the unit normal, out of the water, of each surface
   /// particle.
-  void detect(Particles<D>& particles, const NeighborList<D>& neighbors, const Ghosts<D>& ghosts);
+  /// walls: null where the scene has no bodies.
+  void detect(Particles<D>& particles, const NeighborList<D>& neighbors, const Ghosts<D>& ghosts,
+              const WallSupport<D>* walls = nullptr);
   /// After the flags have perhaps been corrected: marks particles within the kernel radius of a surface
   /// particle as near, gives them the normal of the closest one, and finds their distance.
   void mark_near(Particles<D>& particles, const NeighborList<D>& neighbors, const Ghosts<D>& ghosts);

@@ -54,6 +54,12 @@ struct SymmetricMatrix {
                (a[1] * a[2] - a[0] * a[4]) * w, (a[0] * a[3] - a[1] * a[1]) * w}};
   }
 
+  SymmetricMatrix operator+(const SymmetricMatrix& b) const {
+    SymmetricMatrix sum = *this;
+    for (std::size_t k = 0; k < a.size(); ++k) sum.a[k] += b.a[k];
+    return sum;
+  }
+
   std::array<double, D> operator*(const std::array<double, D>& v) const {
     if constexpr (D == 2)
       return {a[0] * v[0] + a[1] * v[1], a[1] * v[0] + a[2] * v[1]};

@@ -83,6 +83,8 @@ void Scene::bind(Binder& b) {
                    item.key("lower", region.lower).unit("m").required().doc("Lower corner.");
                    item.key("upper", region.upper).unit("m").required().doc("Upper corner.");
                  });
+  b.list<BodySpec>("bodies", "Solids in the flow, fixed or moving as prescribed.", bodies,
+                   [](Binder& item, BodySpec& body) { body.bind(item); });
   b.section("coupling", "How particles and grid meet.", [&] {
     b.choice("kind", coupling.kind, k_kinds)
         .doc(
@@ -142,6 +144,8 @@ Scene Scene::from_file(const std::string& path, const std::vector<std::string>& 
   lasting.time = Time{};
   lasting.coupling.deadline = 0.0;
   scene.restart_digest = digest_of(lasting.resolved());
+  for (auto& body : scene.bodies)
+    if (!body.file.empty()) body.file = document.resolve(body.file);
   return scene;
 }
 

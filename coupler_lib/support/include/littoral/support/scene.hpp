@@ -9,6 +9,7 @@
 #include "littoral/coupler/contract.hpp"
 #include "littoral/coupler/types.hpp"
 #include "littoral/coupler/window.hpp"
+#include "littoral/support/body.hpp"
 #include "littoral/support/config.hpp"
 #include "littoral/support/formula.hpp"
 
@@ -54,6 +55,8 @@ struct Scene {
     coupler::Vec3 upper = {0, 0, 0};
   };
   std::vector<Region> regions;
+
+  std::vector<BodySpec> bodies;  // solids in the flow; files resolved against the scene's folder
 
   enum class CouplingKind { none, imposed, forced };  // alone; Coupling I; Coupling II
   struct Coupling {

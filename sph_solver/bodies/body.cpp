@@ -1,0 +1,23 @@
+#include "bodies/body.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace littoral::sph {
+
+Body::Body(const support::BodySpec& spec, bool planar, double time_scale)
+    : name_(spec.name),
+      shape_(make_shape(spec, planar)),
+      motion_(spec, time_scale),
+      sticks_(spec.slip == support::BodySpec::Slip::none),
+      fluid_inside_(spec.fluid == support::BodySpec::Fluid::inside),
+      thickness_(std::numeric_limits<double>::infinity()),
+      now_(motion_.at(0.0)) {}
+
+SurfacePoint Body::closest_wall(const Vector3& x) const {
+  const SurfacePoint local = shape_->closest(to_local(x));
+  const double sign = fluid_inside_ ? -1.0 : 1.0;
+  return {to_world(local.point), -sign * now_.rotation(local.normal), sign * local.distance};
+}
+
+}  // namespace littoral::sph

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "bodies/body.hpp"
+#include "boundary/domain_box.hpp"
+
+namespace littoral::sph {
+
+/// The lattice on which particles start: points at origin + (i + 1/2) spacing.
+template <int D>
+struct Lattice {
+  std::array<double, D> origin{};  // [m]
+  double spacing = 0.0;            // dx [m]
+};
+
+/// Particles that fill the bodies as deep as a kernel reaches behind their wet surface. They stand on the
+/// lattice of the fluid's start, so that at first every lattice place is either water or body and no support
+/// has gaps or overlaps, whatever the wall's slope; then they go with their body. Each knows the point of the
+/// surface closest to it and the normal there. Where bodies overlap the deeper one has the dummy.
+template <int D>
+class Dummies {
+ public:
+  using Columns = std::array<std::vector<double>, D>;
+
+  /// depth: of the filled layer behind the surface [m]
+  Dummies(const std::vector<Body>& bodies, const DomainBox<D>& box, const Lattice<D>& lattice, double depth);
+
+  /// Decides which dummies count where the bodies are now, and copies them beyond periodic sides and symmetry
+  /// planes as far as `reach`. Those that stand beyond such a side themselves are represented by copies.
+  void place(const std::vector<Body>& bodies, double reach);
+  /// Positions, velocities and normals from the bodies' present state.
+  void refresh(const std::vector<Body>& bodies);
+
+  std::size_t size() const { return source_.size(); }  ///< with copies
+  double volume() const { return volume_; }            ///< of each [m^D]
+
+  // of each, copies included (size())
+  Columns x;       // [m]
+  Columns wall;    // [m] closest point of the surface
+  Columns normal;  // there, out of the fluid
+  Columns u, a;    // of the surface there [m/s, m/s^2]
+  std::vector<std::int32_t> body;
+
+ private:
+  struct Made {
+    std::int32_t body;
+    Vector3 place, wall, normal;  // in the body's frame
+  };
+  bool closed(std::size_t d, std::size_t side) const {
+    return box_.sides[d][side] != support::Scene::Side::open;
+  }
+  void fill(const std::vector<Body>& bodies, std::int32_t b, const Lattice<D>& lattice, double depth);
+  bool counts(const std::vector<Body>& bodies, const Made& dummy, const Vector3& place) const;
+  void add(std::int32_t source, const std::array<double, D>& sign, const std::array<double, D>& offset);
+
+  DomainBox<D> box_;
+  double tolerance_;  // [m] round-off of positions
+  double volume_;
+  std::vector<Made> made_;
+  // of each, copies included: x = sign x_source + offset
+  std::vector<std::int32_t> source_;
+  std::vector<std::array<double, D>> sign_, offset_;
+};
+
+/// The scene's three components of a particle's D.
+template <int D>
+Vector3 in_scene(const std::array<double, D>& x) {
+  Vector3 out{};
+  for (std::size_t d = 0; d < D; ++d) out[scene_axis<D>(d)] = x[d];
+  return out;
+}
+template <int D>
+std::array<double, D> in_plane(const Vector3& x) {
+  std::array<double, D> out{};
+  for (std::size_t d = 0; d < D; ++d) out[d] = x[scene_axis<D>(d)];
+  return out;
+}
+
+/// Round-off of a lattice place on a surface, of the spacing: such a place is body.
+constexpr double k_on_body = 1e-9;
+
+extern template class Dummies<2>;
+extern template class Dummies<3>;
+
+}  // namespace littoral::sph

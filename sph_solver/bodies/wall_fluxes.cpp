@@ -1,0 +1,81 @@
+#include "bodies/wall_fluxes.hpp"
+
+#include <type_traits>
+
+#include "bodies/wall_state.hpp"
+#include "physics/kernel.hpp"
+
+namespace littoral::sph {
+namespace {
+
+template <int D, Reconstruction variant>
+void loop(const Particles<D>& particles, const Gradients<D>& gradients, const Dummies<D>& dummies,
+          const WallList<D>& list, const Numerics<D>& numerics, double level, std::size_t n_bodies,
+          Rate<D>& rate, RowForces<D>& forces) {
+  const Kernel<D> kernel(numerics.kernel_radius);
+  const double V = dummies.volume(), c = numerics.eos.c;
+  const auto n = static_cast<std::ptrdiff_t>(list.n_rows());
+#pragma omp parallel for schedule(static)
+  for (std::ptrdiff_t k = 0; k < n; ++k) {
+    const auto row = static_cast<std::size_t>(k);
+    const std::size_t i = list.particle(row);
+    const auto x = at<D>(particles.x, i);
+    PairSide<D> side{at<D>(particles.u, i), particles.p[i], particles.rho[i], {}, {}};
+    if constexpr (variant != Reconstruction::first_order) {
+      side.grad_p = at<D>(gradients.p, i);
+      for (std::size_t d = 0; d < D; ++d) side.grad_u[d] = at<D>(gradients.u[d], i);
+    }
+    WallView<D> view(dummies, list, row, x);
+    double volume = 0.0;
+    Vector<D> total{};
+    for (std::size_t pair = list.begin(row); pair < list.end(row); ++pair) {
+      const std::size_t e = list.dummy(pair);
+      Vector<D> dx = at<D>(dummies.x, e);
+      for (std::size_t d = 0; d < D; ++d) dx[d] -= x[d];
+      const double f = -V * kernel.slope_over_r(std::sqrt(dot_of<D>(dx, dx)));  // V grad W = f dx
+      if (f == 0.0) continue;
+      const auto face = wall_face<D, variant>(side, view.plane(e), dx, numerics.gravity, c);
+      volume += f * dot_of<D>(face.jump, dx);
+      auto& force = forces[row * n_bodies + static_cast<std::size_t>(dummies.body[e])];
+      for (std::size_t d = 0; d < D; ++d) {
+        const double push = 2.0 * particles.V[i] * f * (face.p - level) * dx[d];
+        force[d] += push;
+        total[d] += push;
+      }
+    }
+    rate.volume[i] += 2.0 * particles.V[i] * volume;
+    for (std::size_t d = 0; d < D; ++d) rate.acceleration[d][i] -= total[d] / particles.m[i];
+  }
+}
+
+}  // namespace
+
+template <int D>
+void add_wall_fluxes(const Particles<D>& particles, const Gradients<D>& gradients, const Dummies<D>& dummies,
+                     const WallList<D>& list, const Numerics<D>& numerics, double level, std::size_t n_bodies,
+                     Rate<D>& rate, RowForces<D>& forces) {
+  forces.assign(list.n_rows() * n_bodies, {});
+  const auto with = [&](auto variant) {
+    loop<D, decltype(variant)::value>(particles, gradients, dummies, list, numerics, level, n_bodies, rate,
+                                      forces);
+  };
+  switch (numerics.reconstruction) {
+    case Reconstruction::first_order:
+      return with(std::integral_constant<Reconstruction, Reconstruction::first_order>{});
+    case Reconstruction::unlimited:
+      return with(std::integral_constant<Reconstruction, Reconstruction::unlimited>{});
+    case Reconstruction::minmod:
+      return with(std::integral_constant<Reconstruction, Reconstruction::minmod>{});
+    case Reconstruction::van_leer:
+      return with(std::integral_constant<Reconstruction, Reconstruction::van_leer>{});
+  }
+}
+
+template void add_wall_fluxes<2>(const Particles<2>&, const Gradients<2>&, const Dummies<2>&,
+                                 const WallList<2>&, const Numerics<2>&, double, std::size_t, Rate<2>&,
+                                 RowForces<2>&);
+template void add_wall_fluxes<3>(const Particles<3>&, const Gradients<3>&, const Dummies<3>&,
+                                 const WallList<3>&, const Numerics<3>&, double, std::size_t, Rate<3>&,
+                                 RowForces<3>&);
+
+}  // namespace littoral::sph

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <array>
+#include <limits>
+
+#include "bodies/wall_list.hpp"
+
+namespace littoral::sph {
+
+template <int D>
+using Vector = std::array<double, D>;
+
+template <int D>
+double dot_of(const Vector<D>& a, const Vector<D>& b) {
+  double sum = 0.0;
+  for (std::size_t d = 0; d < D; ++d) sum += a[d] * b[d];
+  return sum;
+}
+
+template <int D>
+Vector<D> at(const std::array<std::vector<double>, D>& columns, std::size_t k) {
+  Vector<D> out;
+  for (std::size_t d = 0; d < D; ++d) out[d] = columns[d][k];
+  return out;
+}
+
+/// The wall that a particle sees at one dummy: a plane.
+template <int D>
+struct WallPlane {
+  Vector<D> n;      // out of the fluid
+  Vector<D> u;      // [m/s]
+  Vector<D> a;      // [m/s^2]
+  double distance;  // of the particle from the plane [m]
+};
+
+/// The wall planes of one row. A dummy shows the plane of the surface next to it. Where the particle stands
+/// behind that plane (the far face at a convex edge) it sees the plane of the closest dummy in front of which
+/// it stands; if there is none (it has just entered the body), the plane it is least behind.
+template <int D>
+class WallView {
+ public:
+  WallView(const Dummies<D>& dummies, const WallList<D>& list, std::size_t row, const Vector<D>& x)
+      : dummies_(dummies), list_(list), row_(row), x_(x) {}
+
+  WallPlane<D> plane(std::size_t e) {
+    const double d = distance(e);
+    if (d >= 0.0) return plane(e, d);
+    if (!found_) find_closest();
+    return plane(closest_, distance_);
+  }
+  /// Of the closest dummy in front of which the particle stands.
+  WallPlane<D> closest() {
+    if (!found_) find_closest();
+    return plane(closest_, distance_);
+  }
+
+ private:
+  double distance(std::size_t e) const {
+    double d = 0.0;
+    for (std::size_t k = 0; k < D; ++k) d += (dummies_.wall[k][e] - x_[k]) * dummies_.normal[k][e];
+    return d;
+  }
+  WallPlane<D> plane(std::size_t e, double d) const {
+    return {at<D>(dummies_.normal, e), at<D>(dummies_.u, e), at<D>(dummies_.a, e), d};
+  }
+  void find_closest() {
+    found_ = true;
+    bool in_front = false;
+    double least = std::numeric_limits<double>::infinity();
+    distance_ = -least;
+    for (std::size_t k = list_.begin(row_); k < list_.end(row_); ++k) {
+      const std::size_t e = list_.dummy(k);
+      const double d = distance(e);
+      if (d < 0.0) {
+        if (!in_front && d > distance_) distance_ = d, closest_ = e;
+        continue;
+      }
+      double r2 = 0.0;
+      for (std::size_t c = 0; c < D; ++c) r2 += (dummies_.x[c][e] - x_[c]) * (dummies_.x[c][e] - x_[c]);
+      if (r2 >= least) continue;
+      in_front = true;
+      least = r2, closest_ = e, distance_ = d;
+    }
+  }
+
+  const Dummies<D>& dummies_;
+  const WallList<D>& list_;
+  std::size_t row_;
+  Vector<D> x_;
+  bool found_ = false;
+  std::size_t closest_ = 0;
+  double distance_ = 0.0;
+};
+
+}  // namespace littoral::sph

@@ -1,0 +1,195 @@
+#include "bodies/walls.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "bodies/wall_gradients.hpp"
+#include "bodies/wall_view.hpp"
+#include "bodies/wall_viscosity.hpp"
+#include "littoral/error.hpp"
+#include "physics/kernel.hpp"
+
+namespace littoral::sph {
+
+template <int D>
+Walls<D>::Walls(std::vector<Body> bodies, const Numerics<D>& numerics, const DomainBox<D>& box,
+                const Lattice<D>& lattice)
+    : numerics_(numerics),
+      bodies_(std::move(bodies)),
+      // fluid lists may be half a skin old when these are made, and both may move by half a skin after
+      reach_(numerics.kernel_radius + 2.0 * numerics.skin),
+      dummies_(bodies_, box, lattice, numerics.kernel_radius),
+      loads_(bodies_.size()),
+      impulses_(bodies_.size()) {
+  for (const Body& body : bodies_) {
+    sticks_.push_back(body.sticks() && numerics.viscosity > 0.0);
+    any_sticks_ = any_sticks_ || sticks_.back();
+    any_moves_ = any_moves_ || body.moves();
+  }
+  dummies_.place(bodies_, reach_);
+}
+
+template <int D>
+void Walls<D>::move_to(double t) {
+  if (!any_moves_) return;
+  for (Body& body : bodies_) body.move_to(t);
+  dummies_.refresh(bodies_);
+  for (std::size_t e = 0; e < dummies_.size(); ++e) {
+    const auto u = at<D>(dummies_.u, e);
+    const double speed = std::sqrt(dot_of<D>(u, u));
+    if (speed <= numerics_.eos.c) continue;
+    std::ostringstream text;
+    text << "t = " << t << " s: body '" << bodies_[static_cast<std::size_t>(dummies_.body[e])].name()
+         << "' moves at " << speed << " m/s, faster than sound (" << numerics_.eos.c
+         << " m/s). Weakly compressible water allows about a tenth of it: a higher fluid.sound_speed, or a "
+            "slower "
+            "motion.";
+    throw StabilityError(text.str());
+  }
+}
+
+template <int D>
+bool Walls<D>::outdated() const {
+  if (!built_) return true;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (!bodies_[b].moves()) continue;
+    // corners of its box and its origin: with them every point of the body has moved by at most half a skin
+    auto corners = bodies_[b].local_bounds();
+    if constexpr (D == 2) corners[0][1] = corners[1][1] = 0.0;
+    const BodyState &now = bodies_[b].state(), &then = at_build_[b];
+    for (std::size_t k = 0; k < 8; ++k) {
+      const Vector3 c = {corners[k & 1][0], corners[(k >> 1) & 1][1], corners[k >> 2][2]};
+      const Vector3 moved = now.position + now.rotation(c) - then.position - then.rotation(c);
+      if (!(norm(moved) <= 0.5 * numerics_.skin)) return true;
+    }
+  }
+  return false;
+}
+
+template <int D>
+void Walls<D>::build(const Particles<D>& particles) {
+  if (any_moves_) dummies_.place(bodies_, reach_);
+  list_.build(particles, dummies_, reach_);
+  at_build_.clear();
+  for (const Body& body : bodies_) at_build_.push_back(body.state());
+  built_ = true;
+}
+
+template <int D>
+std::size_t Walls<D>::keep_out(Particles<D>& particles, double tolerance, double time) {
+  if (!built_) return 0;
+  std::size_t n_put_back = 0;
+  for (std::size_t row = 0; row < list_.n_rows(); ++row) {
+    const std::size_t i = list_.particle(row);
+    std::int32_t last = -1;
+    for (std::size_t pair = list_.begin(row); pair < list_.end(row); ++pair) {
+      const std::size_t e = list_.dummy(pair);
+      if (dummies_.body[e] == last) continue;  // tested already
+      double in_front = 0.0;
+      for (std::size_t d = 0; d < D; ++d)
+        in_front += (dummies_.wall[d][e] - particles.x[d][i]) * dummies_.normal[d][e];
+      if (in_front >= 0.0) continue;
+      last = dummies_.body[e];
+      const Body& body = bodies_[static_cast<std::size_t>(last)];
+      const Vector3 x = in_scene<D>(at<D>(particles.x, i));
+      const SurfacePoint wall = body.closest_wall(x);
+      if (wall.distance >= 0.0) continue;
+      const Vector3 u = in_scene<D>(at<D>(particles.u, i));
+      if (!(-wall.distance <= tolerance)) {
+        std::ostringstream text;
+        text << "t = " << time << " s: particle " << particles.id[i] << " at (" << x[0] << ", " << x[1]
+             << ", " << x[2] << ") m, velocity (" << u[0] << ", " << u[1] << ", " << u[2] << ") m/s, went "
+             << -wall.distance << " m deep into body '" << body.name() << "', more than half a spacing ("
+             << tolerance << " m). Try a lower time.cfl, a higher fluid.sound_speed or a smaller spacing.";
+        throw StabilityError(text.str());
+      }
+      const double into = dot(u - body.state().velocity_at(wall.point), wall.normal);
+      const Vector3 back = 2.0 * std::max(0.0, into) * wall.normal;
+      const auto to = in_plane<D>(x + 2.0 * wall.distance * wall.normal), slower = in_plane<D>(u - back);
+      for (std::size_t d = 0; d < D; ++d) {
+        particles.x[d][i] = to[d];
+        particles.u[d][i] = slower[d];
+      }
+      auto& impulse = impulses_[static_cast<std::size_t>(last)];
+      impulse.pressure = impulse.pressure + particles.m[i] * back;
+      impulse.pressure_moment =
+          impulse.pressure_moment + cross(wall.point - body.state().position, particles.m[i] * back);
+      ++n_put_back;
+    }
+  }
+  return n_put_back;
+}
+
+template <int D>
+void Walls<D>::correct_gradients(const Particles<D>& particles, const NeighborList<D>& neighbors,
+                                 Gradients<D>& gradients) const {
+  sph::correct_gradients<D>(particles, neighbors, dummies_, list_, numerics_.gravity, gradients);
+}
+
+template <int D>
+void Walls<D>::add_rates(const Particles<D>& particles, const Gradients<D>& gradients, double level,
+                         Rate<D>& rate) {
+  add_wall_fluxes<D>(particles, gradients, dummies_, list_, numerics_, level, bodies_.size(), rate,
+                     pressure_);
+  if (any_sticks_)
+    add_wall_friction<D>(particles, gradients, dummies_, list_, numerics_, sticks_, rate, friction_);
+}
+
+template <int D>
+void Walls<D>::find_support(const Particles<D>& particles, const NeighborList<D>& neighbors) {
+  support_.find(particles, neighbors, dummies_, list_, numerics_.spacing, numerics_.free_surface);
+}
+
+template <int D>
+void Walls<D>::begin_step(double dt) {
+  for (std::size_t b = 0; b < loads_.size(); ++b) {
+    loads_[b] = {};
+    loads_[b].pressure = (1.0 / dt) * impulses_[b].pressure;
+    loads_[b].pressure_moment = (1.0 / dt) * impulses_[b].pressure_moment;
+    impulses_[b] = {};
+  }
+}
+
+template <int D>
+void Walls<D>::add_stage_loads(const Particles<D>& particles, double weight) {
+  const std::size_t n_bodies = bodies_.size();
+  const auto add = [&](const RowForces<D>& forces, Vector3 BodyLoad::*force, Vector3 BodyLoad::*moment) {
+    for (std::size_t row = 0; row < list_.n_rows(); ++row) {
+      const Vector3 x = in_scene<D>(at<D>(particles.x, list_.particle(row)));
+      for (std::size_t b = 0; b < n_bodies; ++b) {
+        const Vector3 f = weight * in_scene<D>(forces[row * n_bodies + b]);
+        loads_[b].*force = loads_[b].*force + f;
+        // the reaction to a force that acts at the particle: angular momentum is kept as well
+        loads_[b].*moment = loads_[b].*moment + cross(x - bodies_[b].state().position, f);
+      }
+    }
+  };
+  add(pressure_, &BodyLoad::pressure, &BodyLoad::pressure_moment);
+  if (any_sticks_) add(friction_, &BodyLoad::viscous, &BodyLoad::viscous_moment);
+}
+
+template <int D>
+double Walls<D>::coverage(const std::array<double, D>& x) const {
+  const Kernel<D> kernel(numerics_.kernel_radius);
+  double sum = 0.0;
+  list_.for_each_near(x, kernel.R + numerics_.skin, [&](std::size_t e) {
+    double r2 = 0.0;
+    for (std::size_t d = 0; d < D; ++d) r2 += (dummies_.x[d][e] - x[d]) * (dummies_.x[d][e] - x[d]);
+    sum += dummies_.volume() * kernel.value(std::sqrt(r2));
+  });
+  return sum;
+}
+
+template <int D>
+bool Walls<D>::inside(const std::array<double, D>& x) const {
+  const Vector3 place = in_scene<D>(x);
+  return std::any_of(bodies_.begin(), bodies_.end(), [&](const Body& body) {
+    return body.closest_wall(place).distance <= k_on_body * numerics_.spacing;
+  });
+}
+
+template class Walls<2>;
+template class Walls<3>;
+
+}  // namespace littoral::sph

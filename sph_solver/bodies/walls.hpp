@@ -1,0 +1,81 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "bodies/body.hpp"
+#include "bodies/dummies.hpp"
+#include "bodies/wall_fluxes.hpp"
+#include "bodies/wall_list.hpp"
+#include "bodies/wall_support.hpp"
+
+namespace littoral::sph {
+
+/// Force and moment of the water on a body; moment about its origin. 2-D: per metre, moment about y.
+struct BodyLoad {
+  Vector3 pressure{}, viscous{};  // [N] without that of the pressure level (p0 with a free surface)
+  Vector3 pressure_moment{}, viscous_moment{};  // [N m]
+};
+
+/// The bodies of a scene as the step of the particles sees them. A scene without bodies has none of this.
+/// Every rank holds all bodies and dummies; rows, rates and loads concern the particles it owns.
+template <int D>
+class Walls {
+ public:
+  Walls(std::vector<Body> bodies, const Numerics<D>& numerics, const DomainBox<D>& box,
+        const Lattice<D>& lattice);
+
+  /// Bodies and dummies to where they are at time t. throws StabilityError: a body faster than sound
+  void move_to(double t);
+  /// True if a body has moved by more than half the skin since build().
+  bool outdated() const;
+  void build(const Particles<D>& particles);
+  void forget() { built_ = false; }
+
+  /// Particles that entered a body by less than `tolerance` go back to their mirror image about its surface,
+  /// velocity included; the body gets their momentum. Returns their number.
+  /// throws StabilityError naming a particle that is deeper inside, and the body
+  std::size_t keep_out(Particles<D>& particles, double tolerance, double time);
+
+  /// Terms of a stage (S12)-(S14).
+  void correct_gradients(const Particles<D>& particles, const NeighborList<D>& neighbors,
+                         Gradients<D>& gradients) const;
+  /// level: of the pressure, taken off [Pa], as in the pairs of particles
+  void add_rates(const Particles<D>& particles, const Gradients<D>& gradients, double level, Rate<D>& rate);
+
+  /// For detection and shifting.
+  void find_support(const Particles<D>& particles, const NeighborList<D>& neighbors);
+  const WallSupport<D>& support() const { return support_; }
+
+  /// Mean loads of a step of length dt: each stage adds its share, so that they are what the particles lost.
+  void begin_step(double dt);
+  void add_stage_loads(const Particles<D>& particles, double weight);
+  const std::vector<BodyLoad>& loads() const {
+    return loads_;
+  }  ///< of the last step, from the owned particles
+
+  const std::vector<Body>& bodies() const { return bodies_; }
+  const Dummies<D>& dummies() const { return dummies_; }
+  const WallList<D>& list() const { return list_; }
+  double coverage(const std::array<double, D>& x) const;  ///< sum_w V_w W at a point: the bodies' share
+  bool inside(const std::array<double, D>& x) const;      ///< a body
+
+ private:
+  Numerics<D> numerics_;
+  std::vector<Body> bodies_;
+  std::vector<char> sticks_;
+  bool any_moves_ = false, any_sticks_ = false;
+  double reach_;  // [m]
+  Dummies<D> dummies_;
+  WallList<D> list_;
+  WallSupport<D> support_;
+  RowForces<D> pressure_, friction_;  // of the last stage
+  std::vector<BodyLoad> loads_, impulses_;
+  std::vector<BodyState> at_build_;
+  bool built_ = false;
+};
+
+extern template class Walls<2>;
+extern template class Walls<3>;
+
+}  // namespace littoral::sph
