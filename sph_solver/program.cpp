@@ -84,9 +84,9 @@ int run_program(coupler::Job& job, int argc, char** argv) {
     if (speaks) std::cout << options.config << ": no problem found\n" << prediction;
     return 0;
   }
-  if (job.size() > 1 && coupled)
-    throw ConfigError("sph_solver with a partner runs on one rank, not on " + std::to_string(job.size()) +
-                      "; start it with -n 1 and give it threads instead (OMP_NUM_THREADS).");
+  if (job.size() > 1 && !(options.record.empty() && options.replay.empty()))
+    throw ConfigError("--record and --replay are for one rank; sph_solver was started on " +
+                      std::to_string(job.size()) + ". Start it with -n 1.");
   const std::string folder = options.out + "/sph";
   if (speaks) {
     std::error_code failure;

@@ -103,13 +103,23 @@ std::string Solver<D>::describe() {
 template <int D>
 void Solver<D>::begin() {
   if (driver_) {
+    driver_->divide_among(ranks_.get());
     if (!restart_) driver_->begin(particles_);
-    driver_->announce(particles_);
+    announce();
   }
   if (restart_) return;
   dynamics_.prepare(particles_, time_, hooks());
   output_.write_rows(moment({}), particles_, dynamics_, layers_);
   output_.write_fields(time_, particles_);
+}
+
+template <int D>
+void Solver<D>::announce() {
+  driver_->announce(particles_);
+  if (!ranks_) return;
+  const RankBox<D> interest = driver_->interest();
+  dynamics_.ghosts().set_interest(interest.lower, interest.upper);
+  dynamics_.forget_lists();
 }
 
 template <int D>
@@ -165,6 +175,8 @@ coupler::Agreement Solver<D>::agree() {
   const std::int64_t first_window = restart_ ? restart_->window : 0;
   if (end.max_windows >= 0 && window_ >= first_window + end.max_windows)
     mine.stop = true, mine.reason = "time.max_windows is reached";
+  divide_anew_ = ranks_ && partner_ && ranks_->unbalanced(particles_, config_.sph.load_drift);
+  mine.region_changed = divide_anew_;
   if (partner_) return partner_->agree(mine);
   if (mine.stop) {
     coupler::Agreement last;
@@ -181,7 +193,11 @@ template <int D>
 void Solver<D>::advance(const coupler::Agreement& agreement) {
   const auto& window = agreement.window;
   if (driver_) {
-    if (agreement.region_changed) driver_->announce(particles_);
+    if (divide_anew_) {
+      ranks_->balance(particles_);
+      driver_->divide_among(ranks_.get());
+    }
+    if (agreement.region_changed) announce();
     driver_->advance(agreement, particles_, dynamics_);
   } else {
     for (int k = 0; k < window.substeps; ++k)
@@ -207,7 +223,13 @@ void Solver<D>::write(const coupler::Agreement& agreement) {
 
 template <int D>
 void Solver<D>::warn_of_layers() {
-  const std::size_t without = driver_ ? driver_->hooks().layer_count().unreached : 0;
+  if (!driver_) return;
+  std::size_t without = driver_->hooks().layer_count().unreached;
+  if (ranks_) {
+    auto of_all = static_cast<double>(without);
+    ranks_->take_sum(&of_all, 1);
+    without = static_cast<std::size_t>(of_all);
+  }
   const bool first = most_without_donors_ == 0;
   most_without_donors_ = std::max(most_without_donors_, without);
   if (without == 0 || !first) return;

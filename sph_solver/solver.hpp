@@ -40,6 +40,7 @@ class Solver {
 
  private:
   void begin();
+  void announce();
   coupler::Agreement agree();
   void advance(const coupler::Agreement& agreement);
   void write(const coupler::Agreement& agreement);
@@ -71,6 +72,7 @@ class Solver {
   std::int64_t n_particles_ = 0;         // of all ranks, at the end of the last window
   double last_checkpoint_ = 0.0;         // [s]
   std::size_t most_without_donors_ = 0;  // particles of the layers, at the end of a window
+  bool divide_anew_ = false;             // among the ranks, when the next window begins
   std::string stopped_because_;
 };
 

@@ -154,9 +154,10 @@ void FaceElements<D>::integrate(const Exterior& fv, const LinearEos& eos, double
   for (std::ptrdiff_t k = 0; k < n; ++k) {
     const auto e = static_cast<std::size_t>(k);
     const auto& element = elements_[e];
+    speed_[e] = 0.0;
+    if (!is_mine(e)) continue;
     try {
       const auto state = fv.at(to_vec3<D>(element.centre), half_time, hint_[e]);
-      speed_[e] = 0.0;
       if (!state) {  // no FV water here
         first_missing = k < first_missing ? k : first_missing;
         continue;
@@ -177,6 +178,10 @@ void FaceElements<D>::integrate(const Exterior& fv, const LinearEos& eos, double
          << x[1] << ", " << x[2] << "). The partner's grid must reach half a cell beyond it.";
     throw CouplingError(text.str());
   }
+  if (others_ != nullptr) {
+    others_->merge(gain);
+    others_->merge(speed_);
+  }
   for (std::size_t e = 0; e < size(); ++e) {  // in order: the same sums on any number of threads
     mass_[e] += gain[e];
     flux_ += gain[e];
@@ -185,14 +190,45 @@ void FaceElements<D>::integrate(const Exterior& fv, const LinearEos& eos, double
 
 template <int D>
 double FaceElements<D>::mean_pressure(const Exterior& fv, double time, double otherwise) const {
-  double force = 0.0, area = 0.0;
+  std::vector<double> forces(size(), 0.0), areas(size(), 0.0);
   for (std::size_t e = 0; e < size(); ++e) {
+    if (!is_mine(e)) continue;
     const auto state = fv.at(to_vec3<D>(elements_[e].centre), time, hint_[e]);
     if (!state) continue;
-    force += state->p * elements_[e].area;
-    area += elements_[e].area;
+    forces[e] = state->p * elements_[e].area;
+    areas[e] = elements_[e].area;
+  }
+  if (others_ != nullptr) {
+    others_->merge(forces);
+    others_->merge(areas);
+  }
+  double force = 0.0, area = 0.0;
+  for (std::size_t e = 0; e < size(); ++e) {
+    force += forces[e];
+    area += areas[e];
   }
   return area > 0.0 ? force / area : otherwise;
+}
+
+template <int D>
+void FaceElements<D>::divide_among(OtherRanks<D>* others) {
+  others_ = others;
+  owner_.clear();
+  if (others_ == nullptr) return;
+  rank_ = static_cast<std::size_t>(others_->rank());
+  for (const auto& element : elements_) owner_.push_back(others_->regions().owner(element.centre, 0));
+}
+
+template <int D>
+double FaceElements<D>::distance_to(std::size_t e, const Point<D>& x) const {
+  const auto& box = boxes_[elements_[e].box];
+  double r2 = 0.0;
+  for (std::size_t d = 0; d < D; ++d) {
+    double r = std::fabs(elements_[e].centre[d] - x[d]);
+    if (box.periodic[d]) r = std::min(r, std::fabs(box.upper[d] - box.lower[d] - r));
+    r2 += r * r;
+  }
+  return std::sqrt(r2);
 }
 
 template <int D>

@@ -7,6 +7,7 @@
 #include "coupling/compensated.hpp"
 #include "coupling/exterior.hpp"
 #include "coupling/zones.hpp"
+#include "parallel/other_ranks.hpp"
 #include "physics/eos.hpp"
 
 namespace littoral::sph {
@@ -26,7 +27,8 @@ struct FaceElement {
 /// The outer faces of the region, split into elements, and the mass each carries: integrated by (18), not yet
 /// injected as particles. Of several boxes only what bounds their union has elements: a face is cut where
 /// another box's outer faces end, and what lies within another box (or coincides with an earlier one's
-/// face) is left out.
+/// face) is left out. On several ranks each knows all of it;
+/// FV's state at an element is asked by the rank in whose part of space its centre lies.
 template <int D>
 class FaceElements {
  public:
@@ -38,7 +40,8 @@ class FaceElements {
 
   /// Adds the mass that enters in [time, time + dt]: rho(p) u.n S dt with FV's state at the centre at half
   /// time (18), second order in time; only the wet part of an element that FV's surface cuts counts (19).
-  /// comm: local. throws CouplingError: no donors at an element in a scene without free surface
+  /// comm: collective over the other ranks. throws CouplingError: no donors at an element in a scene without
+  /// free surface
   void integrate(const Exterior& fv, const LinearEos& eos, double time, double dt);
 
   double mass(std::size_t e) const { return mass_[e].value(); }  // [kg]
@@ -52,6 +55,14 @@ class FaceElements {
   std::int64_t& hint(std::size_t e) const { return hint_[e]; }
   double total_mass() const;                     // [kg] on all elements
   double flux() const { return flux_.value(); }  // [kg] through all elements since the start
+
+  /// null: there are none. To be called anew when space was divided anew.
+  void divide_among(OtherRanks<D>* others);
+  std::size_t owner(std::size_t e) const { return owner_.empty() ? 0 : owner_[e]; }  ///< its rank
+  bool is_mine(std::size_t e) const { return owner_.empty() || owner_[e] == rank_; }
+  /// Between the centres, across a periodic side where that is shorter [m]; of elements of one box.
+  double distance(std::size_t e, std::size_t f) const { return distance_to(e, elements_[f].centre); }
+  double distance_to(std::size_t e, const Point<D>& x) const;  ///< likewise from the centre of e
 
   /// Element of the outer face through which a point outside has left; size() if it is not outside.
   std::size_t crossed(const Point<D>& x) const;
@@ -80,6 +91,9 @@ class FaceElements {
   std::vector<FaceElement<D>> elements_;
   std::vector<Compensated> mass_;
   std::vector<double> speed_;
+  OtherRanks<D>* others_ = nullptr;
+  std::size_t rank_ = 0;
+  std::vector<std::size_t> owner_;  // empty on one rank
   mutable std::vector<std::int64_t> hint_;
   Compensated flux_;
 };

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <set>
 #include <sstream>
 
-#include "coupling/injection_place.hpp"
+#include "coupling/injection_rounds.hpp"
 #include "littoral/error.hpp"
 
 namespace littoral::sph {
@@ -17,6 +17,11 @@ namespace {
 // because others left early; it comes where there is a void, else the mass waits for one.
 constexpr double k_room_inflow = 0.65;
 constexpr double k_room_outflow = 0.9;
+
+// A place lies within two spacings in front of its element and one beside it, and looks two spacings around
+// itself for particles: what stands further from the element's centre does not matter to it [spacings].
+constexpr double k_near = 5.0;
+constexpr double k_apart = 8.0;  // nor do elements that far apart to each other [spacings]
 
 double power(double base, int exponent) {
   double product = 1.0;
@@ -53,9 +58,19 @@ ParticleExchange<D>::ParticleExchange(const Layers<D>& layers, const LinearEos& 
       elements_(layers, spacing) {}
 
 template <int D>
+void ParticleExchange<D>::divide_among(OtherRanks<D>* others) {
+  others_ = others;
+  elements_.divide_among(others);
+}
+
+template <int D>
 void ParticleExchange<D>::start(const Particles<D>& particles) {
   start_mass_ = Compensated();
   for (std::size_t i = 0; i < particles.n_owned; ++i) start_mass_ += particles.m[i];
+  if (others_ == nullptr) return;
+  const auto all = others_->gather({start_mass_.sum(), start_mass_.carry()});
+  start_mass_ = Compensated();
+  for (std::size_t r = 0; r < all.size(); r += 2) start_mass_ += Compensated(all[r], all[r + 1]);
 }
 
 template <int D>
@@ -65,53 +80,94 @@ void ParticleExchange<D>::lose(double mass) {
 }
 
 template <int D>
-void ParticleExchange<D>::doom(const Particles<D>& particles, std::size_t i, std::size_t element) {
-  elements_.credit(element, particles.m[i]);
-  removed_ += particles.m[i];
+void ParticleExchange<D>::doom(std::size_t i) {
   doomed_[i] = 1;
   ++n_doomed_;
+}
+
+template <int D>
+void ParticleExchange<D>::credit(const Leaver& leaver) {
+  const auto element = static_cast<std::size_t>(leaver.element);
+  elements_.credit(element, leaver.mass);
+  removed_ += leaver.mass;
   ++counts_.removed_through[face_of<D>(elements_[element])];
+}
+
+template <int D>
+std::vector<typename ParticleExchange<D>::Leaver> ParticleExchange<D>::of_all_ranks(
+    std::vector<Leaver> mine) const {
+  if (others_ != nullptr) {
+    std::vector<double> numbers;
+    for (const Leaver& l : mine) numbers.insert(numbers.end(), {l.id, l.mass, l.element, l.distance2});
+    numbers = others_->gather(numbers);
+    mine.clear();
+    for (std::size_t k = 0; k < numbers.size(); k += 4)
+      mine.push_back({numbers[k], numbers[k + 1], numbers[k + 2], numbers[k + 3]});
+  }
+  std::sort(mine.begin(), mine.end(), [](const Leaver& a, const Leaver& b) {
+    return a.element != b.element ? a.element < b.element : a.id < b.id;
+  });
+  return mine;
 }
 
 template <int D>
 void ParticleExchange<D>::find_crossed(const Particles<D>& particles, double margin) {
   const double end = layers_.blending_width() + layers_.driven_width() + margin;
+  std::vector<Leaver> mine;
   for (std::size_t i = 0; i < particles.n_owned; ++i) {
     const Point<D> x = at<D>(particles.x, i);
     if (!(layers_.excess(x) > end)) continue;
     const std::size_t element = elements_.crossed(x);
     if (element == elements_.size()) continue;
-    doom(particles, i, element);
+    doom(i);
+    mine.push_back({static_cast<double>(particles.id[i]), particles.m[i], static_cast<double>(element), 0.0});
+  }
+  for (const Leaver& leaver : of_all_ranks(std::move(mine))) {
+    credit(leaver);
     ++counts_.removed_crossing;
   }
 }
 
 template <int D>
 void ParticleExchange<D>::find_nearest(const Particles<D>& particles) {
-  std::vector<std::size_t> near;  // found once, when an element asks
-  for (std::size_t e = 0; e < elements_.size(); ++e) {
-    while (elements_.mass(e) < -m0_) {
-      // what is further away belongs to other elements: the debt waits until a particle comes by
-      const double reach = 2.0 * spacing_;
-      if (near.empty()) near = near_faces(particles, layers_, reach);
-      double s_min = reach * reach;
-      std::size_t nearest = particles.n_owned;
-      for (std::size_t i : near) {
-        double s = 0.0;
-        for (std::size_t d = 0; d < D; ++d) {
-          const double r = particles.x[d][i] - elements_[e].centre[d];
-          s += r * r;
-        }
-        if (doomed_[i] == 0 && s < s_min) {
-          s_min = s;
-          nearest = i;
-        }
+  std::vector<std::size_t> asking;
+  for (std::size_t e = 0; e < elements_.size(); ++e)
+    if (elements_.mass(e) < -m0_) asking.push_back(e);
+  if (asking.empty()) return;
+  // what is further away belongs to other elements: the debt waits until a particle comes by
+  const double reach = 2.0 * spacing_;
+  const auto near = near_faces(particles, layers_, reach);
+  std::vector<Leaver> candidates;
+  for (std::size_t e : asking)
+    for (std::size_t i : near) {
+      double s = 0.0;
+      for (std::size_t d = 0; d < D; ++d) {
+        const double r = particles.x[d][i] - elements_[e].centre[d];
+        s += r * r;
       }
-      if (nearest == particles.n_owned) break;
-      doom(particles, nearest, e);
+      if (doomed_[i] == 0 && s < reach * reach)
+        candidates.push_back(
+            {static_cast<double>(particles.id[i]), particles.m[i], static_cast<double>(e), s});
+    }
+  candidates = of_all_ranks(std::move(candidates));
+  std::set<double> gone;
+  auto first = candidates.cbegin();
+  for (std::size_t e : asking) {
+    const auto last = std::find_if(first, candidates.cend(),
+                                   [e](const Leaver& l) { return l.element > static_cast<double>(e); });
+    while (elements_.mass(e) < -m0_) {
+      auto nearest = last;
+      for (auto l = first; l != last; ++l)
+        if (gone.count(l->id) == 0 && (nearest == last || l->distance2 < nearest->distance2)) nearest = l;
+      if (nearest == last) break;
+      credit(*nearest);
+      gone.insert(nearest->id);
       ++counts_.removed_nearest;
     }
+    first = last;
   }
+  for (std::size_t i : near)
+    if (doomed_[i] == 0 && gone.count(static_cast<double>(particles.id[i])) > 0) doom(i);
 }
 
 template <int D>
@@ -120,54 +176,129 @@ double ParticleExchange<D>::mass_due(std::size_t element) const {
 }
 
 template <int D>
+void ParticleExchange<D>::add_particles_near(const std::vector<std::size_t>& due,
+                                             const Particles<D>& particles,
+                                             std::vector<PresentParticles<D>>& present) const {
+  std::vector<double> places;
+  for (std::size_t i : near_faces(particles, layers_, 4.0 * spacing_)) {
+    const Point<D> x = at<D>(particles.x, i);
+    const auto matters = [&](std::size_t e) { return elements_.distance_to(e, x) < k_near * spacing_; };
+    if (others_ == nullptr) {
+      for (auto& around : present) around.add(x);
+    } else if (std::any_of(due.begin(), due.end(), matters)) {
+      places.insert(places.end(), x.begin(), x.end());
+    }
+  }
+  if (others_ == nullptr) return;
+  places = others_->gather(places);
+  for (std::size_t k = 0; k < places.size(); k += D) {
+    Point<D> x;
+    std::copy_n(places.begin() + static_cast<std::ptrdiff_t>(k), D, x.begin());
+    for (auto& around : present) around.add(x);
+  }
+}
+
+template <int D>
+void ParticleExchange<D>::inject_at(std::size_t k, std::size_t e, Particles<D>& particles, const Exterior& fv,
+                                    double time, PresentParticles<D>& around, std::vector<Birth>& births) {
+  for (std::size_t sequence = 0; elements_.mass(e) >= mass_due(e); ++sequence) {
+    // the particle's centre is the water that passed the face when half of m0 had: so far it has come since
+    const double depth = (elements_.mass(e) - 0.5 * m0_) / (eos_.density(eos_.p0) * elements_[e].area);
+    const bool inflow = elements_.inflow_speed(e) > 0.0;
+    const bool pressed = inflow && elements_.mass(e) >= mass_due(e) + m0_;
+    const auto place =
+        injection_place<D>(elements_[e], depth, spacing_, pressed, around, fv, time, elements_.hint(e));
+    if (place.room < (inflow ? k_room_inflow : k_room_outflow) * spacing_ && !pressed) return;
+    if (place.room < 0.0) return;  // FV's water is not there yet
+    NewParticle<D> particle;
+    particle.x = place.x;
+    const auto state = fv.at(to_vec3<D>(particle.x), time, elements_.hint(e));
+    if (!state) {
+      const auto x = to_vec3<D>(particle.x);
+      std::ostringstream text;
+      text << "t = " << time << " s: no donor cells where a particle must be injected, (" << x[0] << ", "
+           << x[1] << ", " << x[2] << ").";
+      throw CouplingError(text.str());
+    }
+    for (std::size_t d = 0; d < D; ++d) particle.u[d] = state->u[space_axis<D>(d)];
+    particle.p = state->p;
+    particle.m = m0_;
+    particle.V = m0_ / eos_.density(state->p);
+    particle.zone = layers_.zone(layers_.excess(particle.x));
+    particles.append(particle);
+    particles.rho.back() = eos_.density(state->p);
+    around.add(particle.x);
+    elements_.credit(e, -m0_);
+    births.push_back({k, sequence, particle.x});
+  }
+}
+
+/// All ranks learn what one has born: where it stands and whose mass it took.
+template <int D>
+void ParticleExchange<D>::hear_of(const std::vector<Birth>& mine, const std::vector<std::size_t>& due,
+                                  std::vector<PresentParticles<D>>& present, std::vector<Birth>& all) {
+  std::vector<double> numbers;
+  for (const Birth& birth : mine) {
+    numbers.insert(numbers.end(), {static_cast<double>(birth.due), static_cast<double>(birth.sequence)});
+    numbers.insert(numbers.end(), birth.x.begin(), birth.x.end());
+  }
+  numbers = others_->gather(numbers);
+  for (auto it = numbers.begin(); it != numbers.end(); it += D + 2) {
+    Birth birth{static_cast<std::size_t>(it[0]), static_cast<std::size_t>(it[1]), {}};
+    std::copy_n(it + 2, D, birth.x.begin());
+    all.push_back(birth);
+    const std::size_t e = due[birth.due];
+    if (elements_.is_mine(e)) continue;
+    present[elements_[e].box].add(birth.x);
+    elements_.credit(e, -m0_);
+  }
+}
+
+template <int D>
 bool ParticleExchange<D>::inject(Particles<D>& particles, const Exterior& fv, double time) {
-  std::vector<std::size_t> due;
-  for (std::size_t e = 0; e < elements_.size(); ++e)
-    if (elements_.mass(e) >= mass_due(e)) due.push_back(e);
+  std::vector<std::size_t> due, owner;
+  for (std::size_t e = 0; e < elements_.size(); ++e) {
+    if (elements_.mass(e) < mass_due(e)) continue;
+    due.push_back(e);
+    owner.push_back(elements_.owner(e));
+  }
   if (due.empty()) return false;
-  const std::int64_t before = counts_.injected;
 
   std::vector<PresentParticles<D>> present;
   for (const auto& box : layers_.boxes()) present.emplace_back(box, 2.0 * spacing_);
-  for (std::size_t i : near_faces(particles, layers_, 4.0 * spacing_))
-    for (auto& around : present) around.add(at<D>(particles.x, i));
+  add_particles_near(due, particles, present);
   for (auto& around : present) around.sort();
-  for (std::size_t e : due) {
-    auto& around = present[elements_[e].box];
-    while (elements_.mass(e) >= mass_due(e)) {
-      // the particle's centre is the water that passed the face when half of m0 had: so far it has come since
-      const double depth = (elements_.mass(e) - 0.5 * m0_) / (eos_.density(eos_.p0) * elements_[e].area);
-      const bool inflow = elements_.inflow_speed(e) > 0.0;
-      const bool pressed = inflow && elements_.mass(e) >= mass_due(e) + m0_;
-      const auto place =
-          injection_place<D>(elements_[e], depth, spacing_, pressed, around, fv, time, elements_.hint(e));
-      if (place.room < (inflow ? k_room_inflow : k_room_outflow) * spacing_ && !pressed) break;
-      if (place.room < 0.0) break;  // FV's water is not there yet
-      NewParticle<D> particle;
-      particle.x = place.x;
-      const auto state = fv.at(to_vec3<D>(particle.x), time, elements_.hint(e));
-      if (!state) {
-        const auto x = to_vec3<D>(particle.x);
-        std::ostringstream text;
-        text << "t = " << time << " s: no donor cells where a particle must be injected, (" << x[0] << ", "
-             << x[1] << ", " << x[2] << ").";
-        throw CouplingError(text.str());
-      }
-      for (std::size_t d = 0; d < D; ++d) particle.u[d] = state->u[space_axis<D>(d)];
-      particle.p = state->p;
-      particle.m = m0_;
-      particle.V = m0_ / eos_.density(state->p);
-      particle.zone = layers_.zone(layers_.excess(particle.x));
-      particles.append(particle);
-      particles.rho.back() = eos_.density(state->p);
-      around.add(particle.x);
-      elements_.credit(e, -m0_);
-      injected_ += m0_;
-      ++counts_.injected;
-      ++counts_.injected_through[face_of<D>(elements_[e])];
-    }
+
+  std::vector<std::size_t> rounds(due.size(), 0);
+  if (others_ != nullptr) rounds = injection_rounds(elements_, due, owner, k_apart * spacing_);
+  const std::size_t last = *std::max_element(rounds.begin(), rounds.end());
+  const std::size_t n_before = particles.n_owned;
+  const std::int64_t first_id = particles.next_id;
+  std::vector<Birth> mine, all;
+  for (std::size_t round = 0; round <= last; ++round) {
+    std::vector<Birth> of_round;
+    for (std::size_t k = 0; k < due.size(); ++k)
+      if (rounds[k] == round && elements_.is_mine(due[k]))
+        inject_at(k, due[k], particles, fv, time, present[elements_[due[k]].box], of_round);
+    mine.insert(mine.end(), of_round.begin(), of_round.end());
+    if (others_ != nullptr) hear_of(of_round, due, present, all);
   }
-  return counts_.injected > before;
+  if (others_ == nullptr) all = mine;
+  // ids in the order of the elements, whoever owns them
+  const auto before = [](const Birth& a, const Birth& b) {
+    return a.due != b.due ? a.due < b.due : a.sequence < b.sequence;
+  };
+  std::sort(all.begin(), all.end(), before);
+  for (std::size_t k = 0; k < mine.size(); ++k)
+    particles.id[n_before + k] =
+        first_id + (std::lower_bound(all.begin(), all.end(), mine[k], before) - all.begin());
+  particles.next_id = first_id + static_cast<std::int64_t>(all.size());
+  for (const Birth& birth : all) {
+    injected_ += m0_;
+    ++counts_.injected_through[face_of<D>(elements_[due[birth.due]])];
+  }
+  counts_.injected += static_cast<std::int64_t>(all.size());
+  return !all.empty();
 }
 
 template <int D>
@@ -189,6 +320,10 @@ coupler::Ledger ParticleExchange<D>::ledger(const Particles<D>& particles) const
   for (std::size_t i = 0; i < particles.n_owned; ++i) inside += particles.m[i];
   coupler::Ledger ledger;
   ledger.mass_inside = inside.value();
+  if (others_ != nullptr && others_->rank() != 0) {
+    ledger.defect = ledger.mass_inside;
+    return ledger;
+  }
   ledger.mass_on_faces = elements_.total_mass();
   ledger.mass_injected = injected_.value();
   ledger.mass_removed = removed_.value();

@@ -9,6 +9,7 @@
 #include "coupling/compensated.hpp"
 #include "coupling/exterior.hpp"
 #include "coupling/face_elements.hpp"
+#include "coupling/injection_place.hpp"
 #include "coupling/zones.hpp"
 #include "littoral/coupler/fields.hpp"
 #include "particles/particles.hpp"
@@ -46,19 +47,24 @@ class ParticleExchange {
   /// m0 = rho0 dx^D is the mass of an injected particle.
   ParticleExchange(const Layers<D>& layers, const LinearEos& eos, double spacing, Removal removal);
 
-  /// Takes the present particles as the start of the ledger.
+  /// On several ranks every rank keeps the whole ledger and takes the same decisions in the same order; what
+  /// one rank alone knows (its particles near the faces, FV's state at its elements) it tells the others.
+  /// null: there are none. To be called anew when space was divided anew.
+  void divide_among(OtherRanks<D>* others);
+
+  /// Takes the present particles as the start of the ledger. comm: collective
   void start(const Particles<D>& particles);
 
   /// After a step from `time` to `time + dt`, positions of the end: integrates the face elements over the
   /// step (18), (19), removes, injects. Ghosts are dropped if particles changed. returns  true if
-  /// particles appeared or vanished: indices and neighbour lists are void then comm: local. throws
+  /// particles appeared or vanished: indices and neighbour lists are void then comm: collective. throws
   /// CouplingError: no donors where a particle has to appear
   bool step(Particles<D>& particles, const Exterior& fv, double time, double dt);
 
   /// A particle that someone else takes out: its mass is part of the ledger.
   void lose(double mass);
 
-  /// This rank's ledger. throws nothing
+  /// This rank's part of the ledger: what all ranks know is rank 0's part. throws nothing
   coupler::Ledger ledger(const Particles<D>& particles) const;
   const ExchangeCounts& counts() const { return counts_; }
   const FaceElements<D>& elements() const { return elements_; }
@@ -69,9 +75,29 @@ class ParticleExchange {
   void unpack(const std::vector<double>& packed, const std::vector<std::int64_t>& counts);
 
  private:
-  void doom(const Particles<D>& particles, std::size_t i, std::size_t element);
+  /// A particle that leaves, of whatever rank.
+  struct Leaver {
+    double id, mass, element;
+    double distance2;  // [m^2] from the element's centre, for `nearest`
+  };
+  /// Those of all ranks, by element and id.
+  std::vector<Leaver> of_all_ranks(std::vector<Leaver> mine) const;
+  void credit(const Leaver& leaver);
+  void doom(std::size_t i);
   void find_crossed(const Particles<D>& particles, double margin);
   void find_nearest(const Particles<D>& particles);
+  /// A particle that was born, as all ranks must know it.
+  struct Birth {
+    std::size_t due;       // place of its element among the due ones
+    std::size_t sequence;  // of the element's births
+    Point<D> x;
+  };
+  void add_particles_near(const std::vector<std::size_t>& due, const Particles<D>& particles,
+                          std::vector<PresentParticles<D>>& present) const;
+  void inject_at(std::size_t k, std::size_t element, Particles<D>& particles, const Exterior& fv, double time,
+                 PresentParticles<D>& around, std::vector<Birth>& births);
+  void hear_of(const std::vector<Birth>& mine, const std::vector<std::size_t>& due,
+               std::vector<PresentParticles<D>>& present, std::vector<Birth>& all);
   double mass_due(std::size_t element) const;  ///< [kg] with so much on it a particle comes
   bool inject(Particles<D>& particles, const Exterior& fv, double time);
 
@@ -81,6 +107,7 @@ class ParticleExchange {
   double m0_ = 0.0;
   Removal removal_ = Removal::crossing;
   FaceElements<D> elements_;
+  OtherRanks<D>* others_ = nullptr;
   Compensated start_mass_, injected_, removed_, lost_;
   ExchangeCounts counts_;
   std::vector<char> doomed_;  // of the step at hand

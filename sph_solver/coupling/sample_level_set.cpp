@@ -18,9 +18,12 @@ void sample_level_set(const Particles<D>& particles, const Ghosts<D>& ghosts, co
   std::array<std::vector<double>, D> normal = particles.normal;
   for (auto& component : normal) component.resize(particles.size());
   ghosts.refresh_vector(normal, particles.n_owned);
+  std::vector<double> on_surface(particles.size());
+  for (std::size_t i = 0; i < particles.n_owned; ++i)
+    on_surface[i] = particles.surface[i] == SurfaceFlag::surface ? 1.0 : 0.0;
+  ghosts.refresh_scalar(on_surface, particles.n_owned);
   for (std::size_t j = 0; j < particles.size(); ++j) {
-    const std::size_t flagged = j < particles.n_owned ? j : ghosts.source(j - particles.n_owned);
-    if (particles.surface[flagged] != SurfaceFlag::surface) continue;
+    if (on_surface[j] == 0.0) continue;
     for (std::size_t d = 0; d < D; ++d) x[d].push_back(particles.x[d][j]);
     source.push_back(j);
   }

@@ -60,14 +60,19 @@ void sample_states(const Particles<D>& particles, const Layers<D>& layers, const
   const Kernel<D> kernel(rules.kernel_radius);
   std::array<std::vector<double>, D> x;
   std::vector<std::size_t> source;
+  std::vector<std::int64_t> id;
   for (std::size_t j = 0; j < particles.size(); ++j) {
     const Point<D> position = at<D>(particles.x, j);
     if (layers.zone(layers.excess(position)) == Zone::driven) continue;
     for (std::size_t d = 0; d < D; ++d) x[d].push_back(position[d]);
     source.push_back(j);
+    id.push_back(particles.id[j]);
   }
   CellGrid<D> grid;
-  if (!source.empty()) grid.bin(x, source.size(), rules.kernel_radius);
+  if (!source.empty()) {
+    grid.bin(x, source.size(), rules.kernel_radius);
+    grid.sort_cells(x, id);  // sums in an order that does not depend on the number of ranks
+  }
 
   std::array<double*, 3> velocity = {samples.u.data(), samples.v.data(), samples.w.data()};
   const auto n = static_cast<std::ptrdiff_t>(targets.size());

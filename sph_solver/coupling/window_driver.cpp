@@ -5,6 +5,22 @@
 
 namespace littoral::sph {
 
+namespace {
+
+template <int D>
+DomainBox<D> domain_box(const support::Scene& scene) {
+  DomainBox<D> box;
+  for (std::size_t d = 0; d < D; ++d) {
+    const std::size_t axis = scene_axis<D>(d);
+    box.lower[d] = scene.domain.lower[axis];
+    box.upper[d] = scene.domain.upper[axis];
+    box.sides[d] = scene.domain.sides[axis];
+  }
+  return box;
+}
+
+}  // namespace
+
 template <int D>
 WindowDriver<D>::WindowDriver(const support::Scene& scene, const CouplingConfig& config,
                               const Numerics<D>& numerics, coupler::FvPartner& partner)
@@ -16,6 +32,8 @@ WindowDriver<D>::WindowDriver(const support::Scene& scene, const CouplingConfig&
       phi_band_(config.phi_band * numerics.spacing),
       level_follows_fv_(!numerics.free_surface),
       reference_pressure_(numerics.eos.p0),
+      skin_(numerics.skin),
+      domain_(domain_box<D>(scene)),
       donors_(scene),
       hooks_(Layers<D>::from_scene(scene, numerics.kernel_radius), numerics, donors_, config.removal) {}
 
@@ -27,11 +45,23 @@ void WindowDriver<D>::begin(Particles<D>& particles) {
 }
 
 template <int D>
+void WindowDriver<D>::divide_among(OtherRanks<D>* others) {
+  others_ = others;
+  hooks_.exchange().divide_among(others);
+}
+
+template <int D>
 void WindowDriver<D>::announce(Particles<D>& particles) {
   // Particles pass the outer face by less than a spacing before they are removed; one more holds the donors'
   // own extent, which is the partner's to add.
   const double skin = 2.0 * spacing_;
-  partner_.announce(layers().needs(skin), layers().covers());
+  coupler::Box needs = layers().needs(skin), covers = layers().covers();
+  if (others_ != nullptr) {
+    const RankBox<D>& mine = others_->regions()[static_cast<std::size_t>(others_->rank())];
+    needs = rank_part(needs, mine, domain_, skin + skin_);
+    covers = rank_part(covers, mine, domain_, 0.0);
+  }
+  partner_.announce(needs, covers);
   donors_.set_geometry(partner_.donor_geometry());
   forget_hints(particles);
   samples_.resize(partner_.targets().size(), with_phi_);

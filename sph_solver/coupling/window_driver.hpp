@@ -6,6 +6,7 @@
 #include "coupling/coupling_config.hpp"
 #include "coupling/coupling_hooks.hpp"
 #include "coupling/exterior.hpp"
+#include "coupling/rank_part.hpp"
 #include "coupling/samples.hpp"
 #include "littoral/coupler/partner.hpp"
 #include "littoral/support/scene.hpp"
@@ -29,6 +30,10 @@ class WindowDriver {
   /// checkpoint's.
   void begin(Particles<D>& particles);
 
+  /// Several ranks: each has a part of space, from which follow its elements, donors and targets. To be
+  /// called before begin() or announce(), and anew when space was divided anew. null: there are none
+  void divide_among(OtherRanks<D>* others);
+
   /// Tells the partner where donors are needed and samples can be had, and takes its geometry and targets;
   /// the hints of earlier searches are void. At the start and whenever an agreement says region_changed.
   /// comm: collective, talks to the partner. throws CouplingError: no donors around an open face
@@ -41,6 +46,9 @@ class WindowDriver {
   /// One window; every pass of the schedule starts from the same particles.
   /// comm: collective, talks to the partner. throws CouplingError, StabilityError (also: the ledger's defect)
   void advance(const coupler::Agreement& agreement, Particles<D>& particles, Dynamics<D>& dynamics);
+
+  /// The points the partner wants values at, and their surroundings: the halo must be complete there.
+  RankBox<D> interest() const { return box_of_targets<D>(partner_.targets(), with_phi_ ? phi_band_ : 0.0); }
 
   const coupler::Ledger& ledger() const { return ledger_; }  ///< summed over ranks, of the last window
 
@@ -55,6 +63,9 @@ class WindowDriver {
   double phi_band_;
   bool level_follows_fv_;      // no free surface that fixes the pressure the pair loops take off
   double reference_pressure_;  // [Pa] p0
+  double skin_;                // [m] of the neighbour lists: a particle strays so far before it migrates
+  DomainBox<D> domain_;
+  OtherRanks<D>* others_ = nullptr;
   DonorField donors_;
   CouplingHooks<D> hooks_;
   coupler::Samples samples_;

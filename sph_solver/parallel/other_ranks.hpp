@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "parallel/regions.hpp"
 #include "particles/particles.hpp"
 #include "physics/gradients.hpp"
 
@@ -18,10 +19,17 @@ class OtherRanks {
   using Column = std::vector<double>;
   virtual ~OtherRanks() = default;
 
+  virtual int rank() const = 0;
+  virtual const Regions<D>& regions() const = 0;  ///< the same on all ranks
+
   /// comm: collective, each of these
   virtual bool any(bool here) = 0;
   virtual void take_largest(double* values, std::size_t n) = 0;  ///< each becomes the largest of all ranks
   virtual void take_sum(double* values, std::size_t n) = 0;      ///< summed in the order of the ranks
+  /// Of each number, one rank at most has another value than 0: all get that. No sum is rounded.
+  virtual void merge(std::vector<double>& values) = 0;
+  /// What all ranks give, one after the other.
+  virtual std::vector<double> gather(const std::vector<double>& mine) = 0;
 
   /// Sends the owned particles that stand in another rank's part of space there. comm: collective
   virtual void migrate(Particles<D>& particles) = 0;

@@ -65,6 +65,26 @@ void MpiRanks<D>::take_sum(double* values, std::size_t n) {
 }
 
 template <int D>
+void MpiRanks<D>::merge(std::vector<double>& values) {
+  MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_SUM, comm_);
+}
+
+template <int D>
+std::vector<double> MpiRanks<D>::gather(const std::vector<double>& mine) {
+  const int n = static_cast<int>(mine.size());
+  std::vector<int> counts(static_cast<std::size_t>(size_)), places(static_cast<std::size_t>(size_));
+  MPI_Allgather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, comm_);
+  int total = 0;
+  for (std::size_t r = 0; r < counts.size(); ++r) {
+    places[r] = total;
+    total += counts[r];
+  }
+  std::vector<double> all(static_cast<std::size_t>(total));
+  MPI_Allgatherv(mine.data(), n, MPI_DOUBLE, all.data(), counts.data(), places.data(), MPI_DOUBLE, comm_);
+  return all;
+}
+
+template <int D>
 void MpiRanks<D>::migrate(Particles<D>& particles) {
   if (regions_.size() == 0) return;
   n_migrated_ += static_cast<std::int64_t>(sph::migrate(particles, regions_, comm_));

@@ -16,11 +16,11 @@ class MpiRanks final : public OtherRanks<D> {
   /// Before the first balance() or set_regions() every particle stays where it is.
   MpiRanks(MPI_Comm comm, const DomainBox<D>& box);
 
-  int rank() const { return rank_; }
+  int rank() const override { return rank_; }
   int size() const { return size_; }
   MPI_Comm comm() const { return comm_; }
 
-  const Regions<D>& regions() const { return regions_; }
+  const Regions<D>& regions() const override { return regions_; }
   void set_regions(Regions<D> regions) { regions_ = std::move(regions); }
   /// Bisects anew and sends every particle to its rank. comm: collective
   void balance(Particles<D>& particles);
@@ -39,6 +39,8 @@ class MpiRanks final : public OtherRanks<D> {
   bool any(bool here) override;
   void take_largest(double* values, std::size_t n) override;
   void take_sum(double* values, std::size_t n) override;
+  void merge(std::vector<double>& values) override;
+  std::vector<double> gather(const std::vector<double>& mine) override;
   void migrate(Particles<D>& particles) override;
   std::size_t create_halo(Particles<D>& particles, double reach, std::array<double, D> lower,
                           std::array<double, D> upper) override;

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+INJECT = ["scene.constants.n=16", "scene.time.max_windows=320", "scene.time.field_interval=0"]
 SET = ["scene.constants.n=25", "scene.time.max_windows=100", "scene.time.field_interval=0"]
 
 
@@ -23,7 +24,16 @@ def check(case):
     case.metric("run again", difference(base, again), at_most=0.0)
     threads = case.run("configs/standing_wave", name="threads2", threads=2, set=SET)
     case.metric("two threads", difference(base, threads), at_most=1e-10)
-    for sph, fv in ((2, 1), (1, 2), (3, 2)):
+    for sph in (2, 3):
+        run = case.run("configs/standing_wave", name=f"ranks{sph}1", sph_ranks=sph, threads=1, set=SET)
+        case.metric(f"{sph}+1 ranks", difference(base, run), at_most=1e-10)
+    both = case.run("configs/standing_wave", name="ranks21threads2", sph_ranks=2, threads=2, set=SET)
+    case.metric("2+1 ranks of two threads", difference(base, both), at_most=1e-10)
+    one = case.run("configs/piston", name="piston11", threads=1, set=INJECT)
+    case.metric("injected", one.sph.scalars["n_injected"][-1], at_least=1)
+    two = case.run("configs/piston", name="piston21", sph_ranks=2, threads=1, set=INJECT)
+    case.metric("2+1 ranks with injection", difference(one, two), at_most=1e-10)
+    for sph, fv in ((1, 2), (3, 2)):
         run = case.run("configs/standing_wave", name=f"ranks{sph}{fv}", sph_ranks=sph, fv_ranks=fv, threads=1, set=SET,
                        may_fail=True, timeout=120)
         if run.status == 0:
