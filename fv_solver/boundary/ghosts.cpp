@@ -175,9 +175,14 @@ void fill_window(const Block<D>& block, const Window<D>& w, State<D>& q) {
           p[g] = reference[g] + p[o] - reference[o];
         }
         break;
+      case Condition::overset:  // read by gradients for output only: the interpolated cells go on linearly
+        for (const auto& [g, ahead] : {std::pair{g0, 1.0}, std::pair{g1, 2.0}}) {
+          for (std::size_t k = 0; k < D; ++k) q.u[k][g] = q.u[k][i0] + ahead * (q.u[k][i0] - q.u[k][i1]);
+          p[g] = reference[g] + p0 + ahead * (p0 - p1);
+        }
+        break;
       case Condition::fringe:
       case Condition::join:
-      case Condition::overset:
         break;
     }
     ++flat;
