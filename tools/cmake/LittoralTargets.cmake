@@ -4,7 +4,9 @@ add_library(littoral_options INTERFACE)
 target_compile_options(
   littoral_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
                              # sqrt vectorises only without errno; NaN checks stay alive: no -ffinite-math-only
-                             -fno-math-errno)
+                             -fno-math-errno
+                             # all of a build is compiled alike, so how lanes are passed cannot clash
+                             -Wno-psabi)
 if(LITTORAL_WERROR)
   target_compile_options(littoral_options INTERFACE -Werror)
 endif()
