@@ -52,7 +52,8 @@ def build_parser():
     run = sub.add_parser("run", help="run a scene", description="Run a scene; results go to OUT/sph, OUT/fv, "
                          "OUT/summary.json and OUT/scalars.csv. Exit status 0 only if the whole job succeeded.")
     add_scene_options(run)
-    run.add_argument("--out", help="folder of the results (default: out/SCENE)")
+    run.add_argument("--out", help="folder of the results (default: out/SCENE); what an earlier "
+                     "run left there is removed, unless this one goes on from it")
     run.add_argument("--sph-ranks", type=positive, default=1, metavar="N", help="MPI ranks of sph_solver (default 1)")
     run.add_argument("--fv-ranks", type=positive, default=1, metavar="N", help="MPI ranks of fv_solver (default 1)")
     run.add_argument("--threads", type=positive, metavar="N", help="OpenMP threads a rank (default: all cores, in turns)")

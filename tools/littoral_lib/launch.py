@@ -94,6 +94,24 @@ def end(job):
         pass
 
 
+def killed(lines, ranks):
+    """Who was ended by a signal, as mpirun reports it: sentences. `ranks`: [(program, its number of ranks)] in order.
+
+    A process that is killed (out of memory, a time limit, a crash) has no last words of its own.
+    """
+    text, found = " ".join(line.strip() for line in lines), []
+    for rank, number, signal_name in re.findall(r"process rank (\d+) with PID \d+ on node \S+ exited on\s+signal (\d+)"
+                                                r"(?: \(([^)]*)\))?", text):
+        first = 0
+        for program, count in ranks:
+            if first <= int(rank) < first + count:
+                found.append(f"{program}_solver (its rank {int(rank) - first}) was ended by signal {number}"
+                             + (f" ({signal_name})" if signal_name else "")
+                             + {"9": ": killed from outside; did the machine run out of memory?"}.get(number, ""))
+            first += count
+    return found
+
+
 def own_words(lines):
     """The programs' own lines: without blank ones and mpirun's boxes between rows of dashes."""
     kept, in_box = [], False

@@ -3,6 +3,7 @@
 import pathlib
 import re
 import shlex
+import shutil
 import sys
 
 from . import collect, launch, programs
@@ -40,6 +41,23 @@ def restart_files(scene, origin, window):
     return {p: found[p][chosen] for p in scene.programs}
 
 
+def clear(out):
+    """Removes what an earlier run left in `out`, so that its files are not taken for this one's.
+
+    OUT/command marks a folder that a run wrote; results in any other folder are somebody else's.
+    """
+    if (out / "command").is_file():
+        for folder in ("sph", "fv", "plots"):
+            shutil.rmtree(out / folder, ignore_errors=True)
+        for name in ("summary.json", "scalars.csv", "console.log", "command"):
+            (out / name).unlink(missing_ok=True)
+        return
+    for program in ("sph", "fv"):
+        if (out / program).is_dir() and any((out / program).iterdir()):
+            raise UserError(f"{out}/{program} holds files, but no run of littoral wrote them ({out}/command is missing): "
+                            "take another --out, or remove them")
+
+
 def run(scene, out, sph_ranks=1, fv_ranks=1, threads=None, restart=None, restart_from=None, extra=None,
         bin_dir=None, quiet=False, timeout=None):
     """Runs a scene; returns its summary (status 0: success). All results lie under `out`."""
@@ -52,6 +70,9 @@ def run(scene, out, sph_ranks=1, fv_ranks=1, threads=None, restart=None, restart
     threads = threads or programs.default_threads(used, schedule == "concurrent")
     files = restart_files(scene, restart_from or out, restart) if restart is not None else None
     line = launch.mpi_line(scene, out, ranks, files, extra, bin_dir)
+    goes_on = files is not None and all(out in path.resolve().parents for path in files.values())
+    if not goes_on:
+        clear(out)
     for program in scene.programs:
         (out / program).mkdir(parents=True, exist_ok=True)
         (out / program / "summary.json").unlink(missing_ok=True)  # nothing of an earlier run may pass for this one's
@@ -65,7 +86,8 @@ def run(scene, out, sph_ranks=1, fv_ranks=1, threads=None, restart=None, restart
         console.close()
     job = {"status": result.status, "ranks": {p: ranks[p] for p in scene.programs}, "threads": threads,
            "wall_seconds": round(result.seconds, 3), "command": shlex.join(line),
-           "restart": None if files is None else {p: str(f) for p, f in files.items()}}
+           "restart": None if files is None else {p: str(f) for p, f in files.items()},
+           "killed": launch.killed(result.lines, [(p, ranks[p]) for p in scene.programs])}
     try:
         summary = collect.collect(out, scene, job)
     except OSError as problem:  # a full disk, say: the job's own verdict must not be lost with the summary
@@ -89,6 +111,8 @@ def report_failure(out, summary, stream=sys.stderr):
     status = summary["status"]
     print(f"littoral: the job failed ({reasons.get(status, f'exit status {status}')}) after "
           f"{summary['wall_seconds']:.1f} s. Everything it printed: {out}/console.log", file=stream)
+    for text in summary["killed"]:
+        print(f"littoral: {text}", file=stream)
     for program in summary["programs"]:
         tail = log_tail(out, program)
         print(f"--- last lines of {program}'s log" + ("" if tail else ": it wrote none"), file=stream)

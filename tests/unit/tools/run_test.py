@@ -73,6 +73,26 @@ class Jobs(unittest.TestCase):
                                 seen.append)
         self.assertEqual((result.status, seen), (3, ["sph: one"]))
 
+    def test_a_killed_program_is_named(self):
+        box = ["mpirun noticed that process rank 2 with PID 0 on node a exited on", "signal 9 (Killed)."]
+        self.assertEqual(len(launch.killed(box, [("sph", 2), ("fv", 3)])), 1)
+        self.assertRegex(launch.killed(box, [("sph", 2), ("fv", 3)])[0], r"^fv_solver \(its rank 0\).*signal 9 \(Killed\)")
+        self.assertRegex(launch.killed(box, [("sph", 3)])[0], r"^sph_solver \(its rank 2\)")
+        self.assertEqual(launch.killed(["fv: error: no"], [("sph", 1), ("fv", 1)]), [])
+
+    def test_results_of_an_earlier_run_are_not_taken_for_this_ones(self):
+        out = self.folder / "out"
+        (out / "sph").mkdir(parents=True)
+        (out / "sph" / "gauges.csv").touch()
+        with self.assertRaisesRegex(UserError, "another --out"):
+            run.clear(out)
+        self.assertTrue((out / "sph" / "gauges.csv").exists())
+        (out / "command").touch()
+        (out / "note.txt").touch()
+        run.clear(out)
+        self.assertEqual([p.name for p in out.iterdir()], ["note.txt"])
+        run.clear(self.folder / "new")
+
     def test_own_words_leave_out_the_boxes_of_mpirun(self):
         box = ["-" * 40, "mpirun detected that a process exited", "-" * 40]
         self.assertEqual(launch.own_words(["fv: error: no", *box, ""]), ["fv: error: no"])
