@@ -14,6 +14,8 @@ const std::vector<std::pair<std::string, Reconstruction>> k_reconstructions = {
     {"unlimited", Reconstruction::unlimited},
     {"minmod", Reconstruction::minmod},
     {"van_leer", Reconstruction::van_leer}};
+const std::vector<std::pair<std::string, WallStates>> k_wall_states = {{"linear", WallStates::linear},
+                                                                       {"constant", WallStates::constant}};
 const std::vector<std::pair<std::string, RiemannSolver>> k_riemann_solvers = {
     {"linearised", RiemannSolver::linearised}, {"low_dissipation", RiemannSolver::low_dissipation}};
 const std::vector<std::pair<std::string, Fidelity>> k_fidelities = {
@@ -57,6 +59,10 @@ void Config::bind(support::Binder& b) {
       .doc("Radius R of the kernel in spacings; auto: 4 in 2-D (draft: 3), 2.7 in 3-D.");
   b.choice("reconstruction", reconstruction, k_reconstructions)
       .doc("States of the Riemann problem between two particles: how their gradients are used.");
+  b.choice("wall_states", wall_states, k_wall_states)
+      .doc(
+          "What a particle's Riemann problem with a body uses of its gradients: linear: all; constant: "
+          "none.");
   b.choice("riemann", riemann, k_riemann_solvers)
       .doc(
           "linearised: eq. (12) of Di Mascio et al. 2021; low_dissipation: damps sound, and vortices, less.");
@@ -190,6 +196,7 @@ Numerics<D> numerics_of(const RunConfig& config) {
   numerics.kernel_radius = sph.kernel_radius.value_or(default_kernel_radius(sph.fidelity, D)) * sph.spacing;
   numerics.skin = sph.skin * sph.spacing;
   numerics.reconstruction = sph.reconstruction;
+  numerics.wall_states = sph.wall_states;
   numerics.riemann = sph.riemann;
   numerics.tension = sph.tension;
   numerics.shifting = sph.shifting;
@@ -234,11 +241,35 @@ DomainBox<D> domain_of(const RunConfig& config) {
   return box;
 }
 
+namespace {
+
+/// Through a body thinner than a kernel radius the water of one side would feel that of the other.
+template <int D>
+void require_thickness(const support::BodySpec& spec, double kernel_radius) {
+  using Shape = support::BodySpec::Shape;
+  if (spec.fluid == support::BodySpec::Fluid::inside) return;
+  double least = 2.0 * spec.radius;
+  if (spec.shape == Shape::cylinder && D == 3) least = std::min(least, spec.length);
+  if (spec.shape == Shape::box || spec.shape == Shape::wedge) {
+    least = std::min(spec.size[0], spec.size[2]);
+    if (D == 3) least = std::min(least, spec.size[1]);
+  }
+  if (least >= kernel_radius) return;
+  std::ostringstream text;
+  text << "bodies: '" << spec.name << "' is " << least << " m thick, less than the kernel radius, "
+       << kernel_radius
+       << " m: water on one side would feel the water on the other. Use a smaller spacing or a thicker body.";
+  throw ConfigError(text.str());
+}
+
+}  // namespace
+
 template <int D>
 std::unique_ptr<Walls<D>> walls_of(const RunConfig& config, const std::array<double, D>& origin) {
   if (config.scene.bodies.empty()) return nullptr;
   const auto numerics = numerics_of<D>(config);
   std::vector<Body> bodies;
+  for (const auto& spec : config.scene.bodies) require_thickness<D>(spec, numerics.kernel_radius);
   for (const auto& spec : config.scene.bodies)
     bodies.emplace_back(spec, D == 2, numerics.kernel_radius / numerics.eos.c);
   return std::make_unique<Walls<D>>(std::move(bodies), numerics, domain_of<D>(config),

@@ -35,6 +35,7 @@ struct Config {
   Fidelity fidelity = Fidelity::standard;
   std::optional<double> kernel_radius;  // [dx]; absent: that of the fidelity
   Reconstruction reconstruction = Reconstruction::unlimited;
+  WallStates wall_states = WallStates::linear;
   RiemannSolver riemann = RiemannSolver::linearised;
   Tension tension = Tension::plain;
   Precision precision = Precision::all_double;

@@ -1,8 +1,5 @@
 #include "bodies/body.hpp"
 
-#include <algorithm>
-#include <limits>
-
 namespace littoral::sph {
 
 Body::Body(const support::BodySpec& spec, bool planar, double time_scale)
@@ -11,7 +8,6 @@ Body::Body(const support::BodySpec& spec, bool planar, double time_scale)
       motion_(spec, time_scale),
       sticks_(spec.slip == support::BodySpec::Slip::none),
       fluid_inside_(spec.fluid == support::BodySpec::Fluid::inside),
-      thickness_(std::numeric_limits<double>::infinity()),
       now_(motion_.at(0.0)) {}
 
 SurfacePoint Body::closest_wall(const Vector3& x) const {

@@ -13,14 +13,12 @@ namespace littoral::sph {
 class Body {
  public:
   /// planar: 2-D; time_scale: of its motion's resolution [s], a kernel radius over the sound speed
-  /// throws ConfigError, IoError
   Body(const support::BodySpec& spec, bool planar, double time_scale);
 
   const std::string& name() const { return name_; }
   bool moves() const { return motion_.moves(); }
   bool sticks() const { return sticks_; }             ///< no-slip
   bool holds_fluid() const { return fluid_inside_; }  ///< wet inside
-  double thickness() const { return thickness_; }     ///< [m] of a plate; else infinite
 
   void move_to(double t) { now_ = motion_.at(t); }
   const BodyState& state() const { return now_; }
@@ -39,7 +37,6 @@ class Body {
   Motion motion_;
   bool sticks_;
   bool fluid_inside_;
-  double thickness_;
   BodyState now_;
 };
 

@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "bodies/section.hpp"
-#include "littoral/error.hpp"
 
 namespace littoral::sph {
 namespace {
@@ -82,7 +81,6 @@ std::unique_ptr<Shape> make_shape(const support::BodySpec& spec, bool planar) {
   const double a = 0.5 * spec.size[0], c = 0.5 * spec.size[2];
   switch (spec.shape) {
     case Kind::box:
-    case Kind::plate:
       return polygon({{-a, -c}, {a, -c}, {a, c}, {-a, c}}, half_width);
     case Kind::wedge:
       return polygon({{-a, 0.0}, {a, 0.0}, {spec.apex, spec.size[2]}}, half_width);
@@ -93,10 +91,8 @@ std::unique_ptr<Shape> make_shape(const support::BodySpec& spec, bool planar) {
     }
     case Kind::sphere:
       return std::make_unique<Sphere>(spec.radius);
-    case Kind::stl:
-      break;
   }
-  throw ConfigError("bodies: '" + spec.name + "': shape stl is not built in.");
+  return nullptr;  // every kind has returned
 }
 
 }  // namespace littoral::sph

@@ -25,7 +25,6 @@ class Shape {
 };
 
 /// The shape of a body; planar: its section with y = 0, endless along y.
-/// throws ConfigError, IoError (an stl that cannot be read, or is not closed)
 std::unique_ptr<Shape> make_shape(const support::BodySpec& spec, bool planar);
 
 }  // namespace littoral::sph

@@ -59,7 +59,8 @@ void add_wall_fluxes(const Particles<D>& particles, const Gradients<D>& gradient
     loop<D, decltype(variant)::value>(particles, gradients, dummies, list, numerics, level, n_bodies, rate,
                                       forces);
   };
-  switch (numerics.reconstruction) {
+  const bool constant = numerics.wall_states == WallStates::constant;
+  switch (constant ? Reconstruction::first_order : numerics.reconstruction) {
     case Reconstruction::first_order:
       return with(std::integral_constant<Reconstruction, Reconstruction::first_order>{});
     case Reconstruction::unlimited:

@@ -27,6 +27,7 @@ struct Numerics {
   double kernel_radius = 0.0;                                 // R [m]
   double skin = 0.0;                                          // of the neighbour lists [m]
   Reconstruction reconstruction = Reconstruction::unlimited;
+  WallStates wall_states = WallStates::linear;
   RiemannSolver riemann = RiemannSolver::linearised;
   Precision precision = Precision::all_double;
   Tension tension = Tension::plain;

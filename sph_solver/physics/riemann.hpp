@@ -8,6 +8,11 @@ namespace littoral::sph {
 /// How the states on the two sides of the midpoint are found from those of the particles.
 enum class Reconstruction : std::uint8_t { first_order, unlimited, minmod, van_leer };
 
+/// What a wall's Riemann problem carries on of the particle's state.
+///   linear    its gradients, to the wall and through it (S12)
+///   constant  its values (Zhang, Hu & Adams 2017); the pressure's slope is that of water at rest
+enum class WallStates : std::uint8_t { linear, constant };
+
 /// How strongly the face pressure answers the jump of velocity.
 ///   linearised       with the full impedance rho c, eq. (12)
 ///   low_dissipation  with min(c, 3 (u_l - u_r)) in place of c where the sides approach, with none where they

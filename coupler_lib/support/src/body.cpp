@@ -4,9 +4,10 @@ namespace littoral::support {
 namespace {
 
 const std::vector<std::pair<std::string, BodySpec::Shape>> k_shapes = {
-    {"box", BodySpec::Shape::box},           {"plate", BodySpec::Shape::plate},
-    {"cylinder", BodySpec::Shape::cylinder}, {"sphere", BodySpec::Shape::sphere},
-    {"wedge", BodySpec::Shape::wedge},       {"stl", BodySpec::Shape::stl}};
+    {"box", BodySpec::Shape::box},
+    {"cylinder", BodySpec::Shape::cylinder},
+    {"sphere", BodySpec::Shape::sphere},
+    {"wedge", BodySpec::Shape::wedge}};
 const std::vector<std::pair<std::string, BodySpec::Fluid>> k_fluids = {{"outside", BodySpec::Fluid::outside},
                                                                        {"inside", BodySpec::Fluid::inside}};
 const std::vector<std::pair<std::string, BodySpec::Slip>> k_slips = {{"free", BodySpec::Slip::free},
@@ -20,12 +21,10 @@ void BodySpec::bind(Binder& b) {
   b.key("size", size)
       .unit("m")
       .min(0)
-      .doc("Box, plate: lengths along x, y, z; wedge: base, width, height. 2-D: the second is ignored.");
+      .doc("Box: lengths along x, y, z; wedge: base, width, height. 2-D: the second is ignored.");
   b.key("apex", apex).unit("m").doc("Wedge: x of the apex; 0: above the middle of the base.");
   b.key("radius", radius).unit("m").min(0).doc("Of a cylinder or sphere.");
   b.key("length", length).unit("m").min(0).doc("Of a cylinder, along y before it is turned; 2-D: ignored.");
-  b.key("file", file).doc("Triangles of an stl, closed, normals outwards; relative to this file.");
-  b.key("scale", scale).exclusive_min(0).doc("Factor on the lengths of the file.");
   b.key("position", position).unit("m").doc("Of its origin: centre, or the middle of a wedge's base.");
   b.key("rotation", rotation).unit("deg").doc("About x, then y, then z, before it is placed.");
   b.choice("fluid", fluid, k_fluids).doc("Which side of its surface is wet; inside: a tank.");

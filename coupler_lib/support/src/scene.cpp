@@ -144,8 +144,6 @@ Scene Scene::from_file(const std::string& path, const std::vector<std::string>& 
   lasting.time = Time{};
   lasting.coupling.deadline = 0.0;
   scene.restart_digest = digest_of(lasting.resolved());
-  for (auto& body : scene.bodies)
-    if (!body.file.empty()) body.file = document.resolve(body.file);
   return scene;
 }
 

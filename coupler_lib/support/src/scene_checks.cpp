@@ -110,16 +110,14 @@ void check_body(const Scene& s, Binder& b, std::size_t k) {
     b.check(s.bodies[q].name != body.name, at + "name",
             "'" + body.name + "' is the name of bodies[" + std::to_string(q) + "] already.");
   if (!b.sound({at + "shape", "dimension"})) return;
-  const bool sized = body.shape == Shape::box || body.shape == Shape::plate || body.shape == Shape::wedge;
+  const bool sized = body.shape == Shape::box || body.shape == Shape::wedge;
   for (std::size_t d = 0; d < 3; ++d)
     b.check(!sized || !s.active(d) || body.size[d] > 0.0, at + "size",
-            "along " + k_axes[d] + " is " + metres(body.size[d]) +
-                "; a box, plate or wedge needs lengths above 0.");
+            "along " + k_axes[d] + " is " + metres(body.size[d]) + "; a box or wedge needs lengths above 0.");
   const bool round = body.shape == Shape::cylinder || body.shape == Shape::sphere;
   b.check(!round || body.radius > 0.0, at + "radius", "a cylinder or sphere needs a radius above 0.");
   b.check(body.shape != Shape::cylinder || s.dimension == 2 || body.length > 0.0, at + "length",
           "a cylinder needs a length above 0.");
-  b.check(body.shape != Shape::stl || !body.file.empty(), at + "file", "shape stl needs a file.");
   b.check(body.slip == BodySpec::Slip::free || s.fluid.viscosity > 0.0, at + "slip",
           "none needs a viscosity, and fluid.viscosity is 0: use free.");
   const auto& m = body.motion;
@@ -128,8 +126,7 @@ void check_body(const Scene& s, Binder& b, std::size_t k) {
   if (s.dimension != 2) return;
   b.check(!m.v && !m.y && !m.rate_x && !m.rate_z, at + "motion",
           "leaves the plane (x, z) of a 2-D scene: use u, w or x, z, and rate_y.");
-  b.check(body.shape == Shape::sphere || body.shape == Shape::stl ||
-              (body.rotation[0] == 0.0 && body.rotation[2] == 0.0),
+  b.check(body.shape == Shape::sphere || (body.rotation[0] == 0.0 && body.rotation[2] == 0.0),
           at + "rotation", "turns the body out of the plane (x, z) of a 2-D scene: turn it about y only.");
   b.check(body.position[1] == 0.0, at + "position", "leaves the plane y = 0 of a 2-D scene.");
 }

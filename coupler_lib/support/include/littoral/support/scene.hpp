@@ -56,7 +56,7 @@ struct Scene {
   };
   std::vector<Region> regions;
 
-  std::vector<BodySpec> bodies;  // solids in the flow; files resolved against the scene's folder
+  std::vector<BodySpec> bodies;  // solids in the flow
 
   enum class CouplingKind { none, imposed, forced };  // alone; Coupling I; Coupling II
   struct Coupling {
