@@ -3,7 +3,7 @@
 import pathlib
 import subprocess
 
-from . import launch, programs
+from . import launch, programs, scaling
 from .errors import UserError, unknown
 from .scene import ROOT
 
@@ -14,10 +14,13 @@ KNOWN = {"coupler": (["sph"], ["fv"]), "sph": ([],), "fv": ([],)}
 def command(args):
     names = args.names or list(KNOWN)
     for name in names:
-        if name not in KNOWN:
-            raise unknown("benchmark", name, KNOWN)
+        if name not in KNOWN and name != "sph_scaling":
+            raise unknown("benchmark", name, [*KNOWN, "sph_scaling"])
     status = 0
     for name in names:
+        if name == "sph_scaling":
+            status = status or scaling.command(args)
+            continue
         try:
             program = programs.find(f"{name}_bench", args.bin)
         except UserError:

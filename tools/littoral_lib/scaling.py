@@ -1,0 +1,86 @@
+"""littoral bench sph_scaling: sph_solver on 1 to 4 ranks, and a model, from the messages measured, of many more."""
+
+import json
+import os
+import pathlib
+import subprocess
+
+from . import launch, programs
+from .errors import UserError
+from .scene import ROOT
+
+SCENE = ROOT / "tests" / "benchmarks" / "sph_scaling" / "sph.yaml"
+BLOCKS = 4      # of the strong table
+REACH = 3.0     # of the halo in spacings: R = 2.7 dx and the lists' skin
+# A cluster to be assumed: a message's latency [s], a rank's share of the network [B/s], a sum over all ranks [s] per
+# doubling of their number.
+LATENCY, BANDWIDTH, HOP = 2e-6, 3e9, 2e-6
+SUMS_A_STEP = 7  # one a stage (lists outdated?), two more before and after, two to agree on the step's length
+
+
+def measure(program, folder, ranks, blocks, threads):
+    out = folder / f"ranks{ranks}_blocks{blocks}"
+    line = ["mpirun"] + (["--bind-to", "none", "--oversubscribe"] if launch.is_open_mpi() else [])
+    line += ["-n", str(ranks), program, "--config", str(SCENE), "--out", str(out), "--set", f"scene.constants.blocks={blocks}"]
+    environment = programs.environment(threads)
+    if ranks > (os.cpu_count() or 1):
+        environment["OMPI_MCA_mpi_yield_when_idle"] = "1"
+    done = subprocess.run(line, env=environment, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        raise UserError("sph_solver failed:\n" + done.stdout + done.stderr)
+    with open(out / "sph" / "summary.json", encoding="utf-8") as file:
+        summary = json.load(file)
+    return summary["results"], summary["wall_time"]
+
+
+def table(title, rows):
+    print(f"\n{title}\n\n| ranks | particles | particle-steps/s | of ideal | halo / owned | in the halo's exchange | kB a step and rank |")
+    print("|---|---|---|---|---|---|---|")
+    one = rows[0][1]["particle_steps_per_second"]
+    for ranks, results, wall in rows:
+        speed, steps = results["particle_steps_per_second"], results["steps"]
+        owned = results.get("rank_particles_most", results["particles"])
+        print(f"| {ranks} | {results['particles']:.0f} | {speed:.3g} | {speed / one / ranks:.0%} "
+              f"| {results.get('halo_particles_most', 0) / owned:.2f} | {results.get('halo_seconds_most', 0) / wall:.0%} "
+              f"| {results.get('halo_bytes_most', 0) / steps / 1e3:.0f} |")
+
+
+def step_seconds(particles, ranks, speed, bytes_a_copy, refreshes):
+    """Wall time of a step of a rank amid others, the water being a cube of cubes."""
+    side = particles ** (1 / 3)
+    copies = (side + 2 * REACH) ** 3 - side ** 3
+    compute = particles / speed
+    halo = refreshes * 26 * LATENCY + copies * bytes_a_copy / BANDWIDTH
+    sums = SUMS_A_STEP * HOP * (ranks - 1).bit_length()
+    return compute, halo, sums, copies
+
+
+def model(results, one):
+    """From a run on several ranks: bytes a copy and step, refreshes a step; from one rank: the speed of computing."""
+    speed = one["particle_steps_per_second"]
+    refreshes = results["halo_refreshes"] / results["steps"]
+    bytes_a_copy = results["halo_bytes_most"] / results["steps"] / results["halo_particles_most"]
+    print(f"\nModel: {bytes_a_copy:.0f} B a copy and step in {refreshes:.1f} refreshes, {speed:.3g} particle-steps/s a rank (measured); "
+          f"assumed: 26 neighbours, {LATENCY * 1e6:.0f} us a message, {BANDWIDTH / 1e9:.0f} GB/s a rank, {SUMS_A_STEP} sums a step of "
+          f"{HOP * 1e6:.0f} us a doubling\n")
+    print("| ranks | particles a rank | copies / owned | compute ms | halo ms | sums ms | efficiency |")
+    print("|---|---|---|---|---|---|---|")
+    for ranks in (8, 100, 1000, 10000):
+        for particles in (1e4, 1e5, 1e6):
+            compute, halo, sums, copies = step_seconds(particles, ranks, speed, bytes_a_copy, refreshes)
+            print(f"| {ranks} | {particles:.0e} | {copies / particles:.2f} | {compute * 1e3:.1f} | {halo * 1e3:.2f} | {sums * 1e3:.2f} "
+                  f"| {compute / (compute + halo + sums):.1%} |")
+
+
+def command(args):
+    program = programs.find("sph_solver", args.bin)
+    folder = pathlib.Path(args.out or ROOT / "out" / "bench" / "sph_scaling")
+    threads = args.threads or 1
+    cores = os.cpu_count() or 1
+    print(f"{cores} cores, {threads} thread(s) a rank; ranks beyond the cores share them and show correctness only")
+    strong = [(ranks, *measure(program, folder, ranks, BLOCKS, threads)) for ranks in (1, 2, 3, 4)]
+    weak = [(ranks, *measure(program, folder, ranks, ranks, threads)) for ranks in (1, 2, 3, 4)]
+    table("Strong: the same water", strong)
+    table("Weak: a block a rank", weak)
+    model(strong[1][1], strong[0][1])
+    return 0
