@@ -164,15 +164,23 @@ void set_metrics(Block<D>& block) {
       for (std::size_t k = 0; k < D; ++k) block.area[d][k][c] = a[k];
     }
   });
+  std::string folded;
+  int n_folded = 0;
+  constexpr int k_named = 3;
   for_each_index<D>({}, e.n, [&](const std::array<int, D>& index) {
     const auto c = static_cast<std::size_t>(e.at(index));
-    if (!(block.volume[c] > 0.0))
-      throw ConfigError("the grid is folded: volume " + std::to_string(block.volume[c]) + " in " +
-                        place<D>(block, index) +
-                        "; every cell needs a positive volume (is the mapping one-to-one, "
-                        "and do the directions form a right-handed system?)");
     block.status[c] = CellStatus::computed;
+    if (block.volume[c] > 0.0) return;
+    if (++n_folded <= k_named)
+      folded +=
+          (folded.empty() ? "" : ", ") + std::to_string(block.volume[c]) + " in " + place<D>(block, index);
   });
+  if (n_folded > 0)
+    throw ConfigError(
+        "the grid is folded: " + std::to_string(n_folded) + " cells without a positive volume: " + folded +
+        (n_folded > k_named ? ", ..." : "") +
+        "; every cell needs one (is the mapping one-to-one, and do the directions form a right-handed "
+        "system?)");
   set_solved_mask(block);
 }
 

@@ -4,7 +4,7 @@ littoral_gtest(
   SOURCES box_test.cpp
           flows_test.cpp
           generators_test.cpp
-          grid_parts_test.cpp
+          grid_config_test.cpp grid_parts_test.cpp
           joins_test.cpp
           measures_test.cpp
           metrics_test.cpp
