@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdio>
 
-#include "boundary/ghosts.hpp"
 #include "coupling/carve.hpp"
 #include "coupling/interface_flux.hpp"
 #include "grid/space.hpp"
@@ -49,6 +48,7 @@ std::optional<coupler::Agreement> Coupled<D>::agree(const coupler::Proposal& min
 template <int D>
 StepReport Coupled<D>::advance(const coupler::Window& window, Stepper<D>& stepper) {
   warn_of_long_windows(window.dt());
+  warn_of_many_substeps(window);
   const Schedule schedule = scene_.coupling.schedule.schedule;
   const double flux_before = interface_mass_flux(stepper.blocks(), stepper.equations(), stepper.state());
   StepReport total;
@@ -56,10 +56,7 @@ StepReport Coupled<D>::advance(const coupler::Window& window, Stepper<D>& steppe
 
   offer_->put_state(stepper.state(), donors_);
   if (schedule == Schedule::predicted) {
-    const double drop = stepper.tolerance().drop;
-    stepper.tolerance().drop = std::sqrt(drop);  // a try on extrapolated data deserves half the decades
-    step(window, cells_->extrapolated(window.dt()), stepper, total);
-    stepper.tolerance().drop = drop;
+    step(window, cells_->extrapolated(window.dt()), stepper, total, Solve::rough);
     offer_->put_state(stepper.state(), result_);
     offer_->put_secant(result_, window.dt(), donors_);
     stepper.restore();
@@ -67,12 +64,12 @@ StepReport Coupled<D>::advance(const coupler::Window& window, Stepper<D>& steppe
     offer_->put_rates(stepper, donors_);
   }
   send(window);
+  if (schedule == Schedule::concurrent) step(window, cells_->extrapolated(window.dt()), stepper, total);
+  values = receive(window, stepper);
   if (schedule == Schedule::concurrent) {
-    step(window, cells_->extrapolated(window.dt()), stepper, total);
-    values = receive(window, stepper);
-    if (!forced_) put_into_fringe(values, stepper);
+    stepper.restore();
+    step(window, values, stepper, total, Solve::correction);
   } else {
-    values = receive(window, stepper);
     step(window, values, stepper, total);
   }
   for (int pass = 1; pass < scene_.coupling.schedule.sph_passes(); ++pass) {
@@ -108,10 +105,13 @@ std::vector<Imposed<D>> Coupled<D>::receive(const coupler::Window& window, const
 
 template <int D>
 void Coupled<D>::step(const coupler::Window& window, const Values& values, Stepper<D>& stepper,
-                      StepReport& total) {
+                      StepReport& total, Solve solve) {
+  const double drop = stepper.tolerance().drop;
+  if (solve != Solve::whole) stepper.tolerance().drop = std::sqrt(drop);
+  const bool again = solve == Solve::correction;
   StepReport report;
   if (!forced_) {
-    report = stepper.advance(window.dt(), values);
+    report = stepper.advance(window.dt(), values, again);
   } else {
     const double u_ref = scene_.velocity_scale();
     const Equations<D>& equations = stepper.equations();
@@ -137,8 +137,9 @@ void Coupled<D>::step(const coupler::Window& window, const Values& values, Stepp
         for (std::size_t k = 0; k < D; ++k) forcing.target.u[k][c] = values[b].u[k][m];
       }
     }
-    report = stepper.advance(window.dt());
+    report = stepper.advance(window.dt(), {}, again);
   }
+  stepper.tolerance().drop = drop;
   const int cycles = total.cycles + report.cycles;  // what the window cost, all tries together
   const bool converged = report.converged && (total.norms.empty() || total.converged);
   total = std::move(report);
@@ -146,20 +147,8 @@ void Coupled<D>::step(const coupler::Window& window, const Values& values, Stepp
   total.converged = converged;
 }
 
-template <int D>
-void Coupled<D>::put_into_fringe(const Values& values, Stepper<D>& stepper) const {
-  for (std::size_t b = 0; b < values.size(); ++b) {
-    State<D>& q = stepper.state()[b];
-    for (std::size_t m = 0; m < values[b].cell.size(); ++m) {
-      q.p[values[b].cell[m]] = values[b].p[m];
-      for (std::size_t k = 0; k < D; ++k) q.u[k][values[b].cell[m]] = values[b].u[k][m];
-    }
-    fill_ghosts(stepper.blocks()[b], q);
-  }
-}
-
-/// Extrapolation in time feeds the gravest acoustic mode of the water column, of period 4H/c,
-/// when a window is too large a part of it; where both sides extrapolate, whatever the window.
+/// Extrapolation in time feeds the gravest acoustic mode of the water column, of period 4H/c, when a window
+/// is too large a part of it.
 template <int D>
 void Coupled<D>::warn_of_long_windows(double dt) {
   constexpr double k_enough = 25.0;
@@ -167,13 +156,6 @@ void Coupled<D>::warn_of_long_windows(double dt) {
   if (warned_ || !(column_depth_ > 0.0) || (schedule != Schedule::serial && schedule != Schedule::concurrent))
     return;
   const double windows = 4.0 * column_depth_ / (scene_.fluid.sound_speed * dt);
-  if (schedule == Schedule::concurrent) {
-    warned_ = true;
-    this->warn(
-        "schedule concurrent: both solvers extrapolate, and the pressure between them grew in every wave "
-        "measured (tests/validation/README.md). Watch it, or use predicted");
-    return;
-  }
   if (windows >= k_enough) return;
   warned_ = true;
   char text[320];
@@ -183,6 +165,21 @@ void Coupled<D>::warn_of_long_windows(double dt) {
       "column); below %.0f extrapolation feeds the column's acoustic mode. Use predicted, or shorter "
       "windows",
       coupler::name(schedule), dt, windows, column_depth_, k_enough);
+  this->warn(text);
+}
+
+/// Beyond what was ever compared with M = 1: a step given in the scene that is out of proportion.
+template <int D>
+void Coupled<D>::warn_of_many_substeps(const coupler::Window& window) {
+  constexpr int k_measured = 10, k_too_many = 2 * k_measured;  // the particles choose a step more or less
+  if (warned_of_substeps_ || window.substeps <= k_too_many) return;
+  warned_of_substeps_ = true;
+  char text[240];
+  std::snprintf(
+      text, sizeof text,
+      "a window of %.3g s takes %d substeps of the particles; up to %d were compared with M = 1. Is "
+      "coupling.dt (or substeps) what you mean?",
+      window.dt(), window.substeps, k_measured);
   this->warn(text);
 }
 

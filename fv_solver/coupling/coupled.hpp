@@ -19,7 +19,8 @@ namespace littoral::fv {
 ///   serial      send q^n + q' (t - t^n); receive s; step with s
 ///   predicted   step with extrapolated s; send q^n to that result; step back; receive s; step with s
 ///   iterated    serial; then again: send q^n to the last result; receive s; step back; step with s
-///   concurrent  send q^n + q' (t - t^n); step with extrapolated s; receive s and put it into the fringe
+///   concurrent  send q^n + q' (t - t^n); step with extrapolated s; step back; receive s; step with s from
+///   there
 template <int D>
 class Coupled : public Companion<D> {
  public:
@@ -42,11 +43,15 @@ class Coupled : public Companion<D> {
 
  private:
   using Values = std::vector<Imposed<D>>;
-  void step(const coupler::Window& window, const Values& values, Stepper<D>& stepper, StepReport& total);
+  /// whole: to the tolerance from the usual start; rough: a try on extrapolated data, which deserves half the
+  /// decades; correction: from such a try, with the true data, the decades that it lacks.
+  enum class Solve { whole, rough, correction };
+  void step(const coupler::Window& window, const Values& values, Stepper<D>& stepper, StepReport& total,
+            Solve solve = Solve::whole);
   Values receive(const coupler::Window& window, const Stepper<D>& stepper);
   void send(const coupler::Window& window);
-  void put_into_fringe(const Values& values, Stepper<D>& stepper) const;
   void warn_of_long_windows(double dt);
+  void warn_of_many_substeps(const coupler::Window& window);
 
   support::Scene scene_;
   double forcing_constant_;
@@ -60,7 +65,7 @@ class Coupled : public Companion<D> {
   std::int64_t epoch_ = 0;
   double mass_flux_ = 0.0;     // [kg] into the region, since the start
   double column_depth_ = 0.0;  // [m]
-  bool warned_ = false;
+  bool warned_ = false, warned_of_substeps_ = false;
 };
 
 }  // namespace littoral::fv

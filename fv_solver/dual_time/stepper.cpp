@@ -96,17 +96,17 @@ void Stepper<D>::set_history(const BackwardDifference& s, double t) {
 }
 
 template <int D>
-StepReport Stepper<D>::advance(double dt, const std::vector<Imposed<D>>& imposed) {
+StepReport Stepper<D>::advance(double dt, const std::vector<Imposed<D>>& imposed, bool from_last_try) {
   if (!(dt > 0.0) || !std::isfinite(dt)) throw StabilityError("a time step of " + std::to_string(dt) + " s");
   const BackwardDifference s = scheme(dt);
   const double t = time_ + dt;
   set_history(s, t);
 
   const double w = known_ > 1 ? dt / dt_[0] : 0.0;
-  std::vector<State<D>> next = std::move(level_[3]);
+  std::vector<State<D>> next = std::move(level_[3]);  // holds the last try where that was given up
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
-    next[b].p = level_[0][b].p;
-    for (std::size_t k = 0; k < D; ++k)
+    if (!from_last_try) next[b].p = level_[0][b].p;
+    for (std::size_t k = 0; k < D && !from_last_try; ++k)
       for (std::size_t c = 0; c < next[b].p.size(); ++c)
         next[b].u[k][c] = level_[0][b].u[k][c] + w * (level_[0][b].u[k][c] - level_[1][b].u[k][c]);
     if (b < imposed.size()) {

@@ -52,7 +52,8 @@ class Stepper {
   /// flip from step to step).
   /// throws StabilityError naming block, cell, place, time, dt where the state is no longer finite or the
   /// density no longer positive
-  StepReport advance(double dt, const std::vector<Imposed<D>>& imposed = {});
+  /// from_last_try: after restore(), starts from the state that it gave up instead.
+  StepReport advance(double dt, const std::vector<Imposed<D>>& imposed = {}, bool from_last_try = false);
   /// Back to before the last advance. Once per advance.
   void restore();
 

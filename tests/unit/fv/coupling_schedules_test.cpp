@@ -261,21 +261,31 @@ TEST(CoupledTest, FringeWithoutWaterIsAnErrorThatNamesTheCell) {
   }
 }
 
-TEST(CoupledTest, SerialWarnsOfWindowsTooLongForTheColumn) {
+/// Warnings of three windows of still water, 4H/c = .8 s deep.
+int warnings(Schedule schedule, double dt) {
   auto scene = top_scene(1e-9);  // which way is down, without a pressure worth mentioning
   const FlowFunction<2> rest = [](const std::array<double, 2>&, double) { return PointState<2>{}; };
-  for (const bool too_long : {false, true}) {
-    scene.coupling.schedule.schedule = Schedule::serial;
-    scene.coupling.window.dt = too_long ? 0.04 : 0.02;  // 4H/c = .8 s
-    auto stepper = test::stepper_for<2>({water_box<2>(10, true)}, scene, rest);
-    Coupled<2> coupled(
-        scene, 10.0,
-        coupler::analytic_sph_partner(coupler::uniform_stream({0, 0, 0}, 0.0), test::plan_of(scene)));
-    int warnings = 0;
-    coupled.warn = [&](const std::string&) { ++warnings; };
-    coupled.begin(stepper);
-    march(coupled, stepper, 3);
-    EXPECT_EQ(warnings, too_long ? 1 : 0);
+  scene.coupling.schedule.schedule = schedule;
+  scene.coupling.window.dt = dt;
+  auto stepper = test::stepper_for<2>({water_box<2>(10, true)}, scene, rest);
+  Coupled<2> coupled(
+      scene, 10.0,
+      coupler::analytic_sph_partner(coupler::uniform_stream({0, 0, 0}, 0.0), test::plan_of(scene)));
+  int count = 0;
+  coupled.warn = [&](const std::string&) { ++count; };
+  coupled.begin(stepper);
+  march(coupled, stepper, 3);
+  return count;
+}
+
+TEST(CoupledTest, WarnsOncePerRunAndOnlyWhereExtrapolationIsNotSafe) {
+  EXPECT_EQ(warnings(Schedule::serial, 0.04), 1);
+  EXPECT_EQ(warnings(Schedule::serial, 0.02), 0);
+  EXPECT_EQ(warnings(Schedule::concurrent, 0.04), 1);
+  EXPECT_EQ(warnings(Schedule::concurrent, 0.02), 0);
+  for (const double dt : {0.02, 0.04}) {
+    EXPECT_EQ(warnings(Schedule::predicted, dt), 0);
+    EXPECT_EQ(warnings(Schedule::iterated, dt), 0);
   }
 }
 
