@@ -56,8 +56,8 @@ void put(TapeWriter& tape, CallKind kind, const Window& window, std::size_t coun
 
 class RecordingFv final : public FvPartner {
  public:
-  RecordingFv(std::unique_ptr<FvPartner> real, const std::string& path)
-      : real_(std::move(real)), tape_(path, Role::fv, real_->description()) {}
+  RecordingFv(std::unique_ptr<FvPartner> real, const std::string& path, const std::string& scene)
+      : real_(std::move(real)), tape_(path, Role::fv, real_->description(), scene) {}
 
   void announce(const Box& needs, const Box& covers) override {
     real_->announce(needs, covers);
@@ -107,8 +107,8 @@ class RecordingFv final : public FvPartner {
 
 class RecordingSph final : public SphPartner {
  public:
-  RecordingSph(std::unique_ptr<SphPartner> real, const std::string& path)
-      : real_(std::move(real)), tape_(path, Role::sph, real_->description()) {}
+  RecordingSph(std::unique_ptr<SphPartner> real, const std::string& path, const std::string& scene)
+      : real_(std::move(real)), tape_(path, Role::sph, real_->description(), scene) {}
 
   void offer(const DonorGeometry& donors, const Targets& targets) override {
     real_->offer(donors, targets);
@@ -157,12 +157,14 @@ class RecordingSph final : public SphPartner {
 
 }  // namespace
 
-std::unique_ptr<FvPartner> recording(std::unique_ptr<FvPartner> real, const std::string& path) {
-  return std::make_unique<RecordingFv>(std::move(real), path);
+std::unique_ptr<FvPartner> recording(std::unique_ptr<FvPartner> real, const std::string& path,
+                                     const std::string& scene) {
+  return std::make_unique<RecordingFv>(std::move(real), path, scene);
 }
 
-std::unique_ptr<SphPartner> recording(std::unique_ptr<SphPartner> real, const std::string& path) {
-  return std::make_unique<RecordingSph>(std::move(real), path);
+std::unique_ptr<SphPartner> recording(std::unique_ptr<SphPartner> real, const std::string& path,
+                                      const std::string& scene) {
+  return std::make_unique<RecordingSph>(std::move(real), path, scene);
 }
 
 }  // namespace littoral::coupler

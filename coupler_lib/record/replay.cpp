@@ -24,7 +24,7 @@ void get(TapeReader& tape, DonorGeometry& geometry, Targets& targets) {
 
 class ReplayedFv final : public FvPartner {
  public:
-  explicit ReplayedFv(const std::string& path) : script_(path, Role::fv) {}
+  ReplayedFv(const std::string& path, const std::string& scene) : script_(path, Role::fv, scene) {}
 
   void announce(const Box& needs, const Box& covers) override {
     script_.announce(Question::of(needs, covers));
@@ -62,7 +62,7 @@ class ReplayedFv final : public FvPartner {
 
 class ReplayedSph final : public SphPartner {
  public:
-  explicit ReplayedSph(const std::string& path) : script_(path, Role::sph) {}
+  ReplayedSph(const std::string& path, const std::string& scene) : script_(path, Role::sph, scene) {}
 
   void offer(const DonorGeometry& donors, const Targets& targets) override {
     script_.announce(Question::of(donors, targets));
@@ -93,12 +93,12 @@ class ReplayedSph final : public SphPartner {
 
 }  // namespace
 
-std::unique_ptr<FvPartner> replayed_fv_partner(const std::string& path) {
-  return std::make_unique<ReplayedFv>(path);
+std::unique_ptr<FvPartner> replayed_fv_partner(const std::string& path, const std::string& scene) {
+  return std::make_unique<ReplayedFv>(path, scene);
 }
 
-std::unique_ptr<SphPartner> replayed_sph_partner(const std::string& path) {
-  return std::make_unique<ReplayedSph>(path);
+std::unique_ptr<SphPartner> replayed_sph_partner(const std::string& path, const std::string& scene) {
+  return std::make_unique<ReplayedSph>(path, scene);
 }
 
 }  // namespace littoral::coupler

@@ -11,7 +11,7 @@ namespace littoral::coupler {
 /// A record read from its beginning, and the watch over whether the same is asked as then.
 class Script {
  public:
-  Script(const std::string& path, Role speaker) : tape_(path, speaker) {}
+  Script(const std::string& path, Role speaker, const std::string& scene) : tape_(path, speaker, scene) {}
 
   TapeReader& tape() { return tape_; }
   std::string description() const {

@@ -18,7 +18,7 @@ namespace littoral::coupler {
 class TapeWriter {
  public:
   /// speaker: whose words are recorded.
-  TapeWriter(const std::string& path, Role speaker, const std::string& description);
+  TapeWriter(const std::string& path, Role speaker, const std::string& description, const std::string& scene);
   ~TapeWriter();  ///< commits, without a word if that fails
 
   void put(const std::string& track, const double* values, std::size_t n);
@@ -64,10 +64,10 @@ class TapeWriter {
 };
 
 /// Reads a record's tracks from the beginning on. throws IoError: no such file, no HDF5, no record, a record
-/// of the other side, values missing
+/// of the other side, values missing; CouplingError: of another scene
 class TapeReader {
  public:
-  TapeReader(const std::string& path, Role speaker);
+  TapeReader(const std::string& path, Role speaker, const std::string& scene);
 
   const std::string& path() const { return path_; }
   const std::string& description() const { return description_; }

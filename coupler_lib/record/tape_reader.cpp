@@ -5,7 +5,7 @@
 
 namespace littoral::coupler {
 
-TapeReader::TapeReader(const std::string& path, Role speaker) : path_(path) {
+TapeReader::TapeReader(const std::string& path, Role speaker, const std::string& scene) : path_(path) {
   const QuietHdf5 quiet;
   file_ = Handle(checked(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), path, "cannot open the record"),
                  H5Fclose);
@@ -18,6 +18,10 @@ TapeReader::TapeReader(const std::string& path, Role speaker) : path_(path) {
     throw IoError(path_ + ": holds what the side '" + spoke + "' said, '" + name(speaker) +
                   "' was asked for");
   description_ = attribute(k_description_attribute);
+  const std::string recorded = attribute(k_scene_attribute);
+  if (recorded != scene)
+    throw CouplingError(path_ + ": was recorded in another scene (" + recorded + ", this run has " + scene +
+                        "): replay it with the scene and the settings that it was recorded with");
   read_calls();
 }
 

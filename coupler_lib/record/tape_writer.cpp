@@ -19,7 +19,9 @@ void write_attribute(hid_t file, const std::string& path, const char* name, cons
 
 }  // namespace
 
-TapeWriter::TapeWriter(const std::string& path, Role speaker, const std::string& description) : path_(path) {
+TapeWriter::TapeWriter(const std::string& path, Role speaker, const std::string& description,
+                       const std::string& scene)
+    : path_(path) {
   const QuietHdf5 quiet;
   file_ = Handle(checked(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), path,
                          "cannot create the record"),
@@ -27,6 +29,7 @@ TapeWriter::TapeWriter(const std::string& path, Role speaker, const std::string&
   write_attribute(file_, path_, k_format_attribute, k_format);
   write_attribute(file_, path_, k_speaker_attribute, name(speaker));
   write_attribute(file_, path_, k_description_attribute, description);
+  write_attribute(file_, path_, k_scene_attribute, scene);
   checked(H5Fflush(file_, H5F_SCOPE_LOCAL), path_, "cannot flush");
 }
 

@@ -23,9 +23,10 @@ Words words(coupler::Role role) {
 
 /// Records what `partner` says, where that is wanted.
 template <class Partner>
-std::unique_ptr<Partner> recorded(std::unique_ptr<Partner> partner, const ProgramOptions& options) {
+std::unique_ptr<Partner> recorded(std::unique_ptr<Partner> partner, const ProgramOptions& options,
+                                  const Scene& scene) {
   if (options.record.empty()) return partner;
-  return coupler::recording(std::move(partner), options.record);
+  return coupler::recording(std::move(partner), options.record, scene.restart_digest);
 }
 
 }  // namespace
@@ -84,15 +85,15 @@ std::unique_ptr<coupler::FvPartner> choose_fv_partner(const coupler::Job& job, c
   switch (decide_partner(coupler::Role::sph, job.has_partner(), scene, config, options)) {
     case PartnerPlayer::program:
       job.compare(scene.contract(), plan.deadline);
-      return recorded(job.fv_partner(plan), options);
+      return recorded(job.fv_partner(plan), options, scene);
     case PartnerPlayer::formula:
       return recorded(
           coupler::analytic_fv_partner(analytic_flow(scene, config.analytic), plan,
                                        config.analytic.spacing > 0.0 ? config.analytic.spacing : spacing,
                                        scene.dimension, job.comm()),
-          options);
+          options, scene);
     case PartnerPlayer::record:
-      return coupler::replayed_fv_partner(options.replay);
+      return coupler::replayed_fv_partner(options.replay, scene.restart_digest);
     case PartnerPlayer::nobody:
       break;
   }
@@ -106,12 +107,12 @@ std::unique_ptr<coupler::SphPartner> choose_sph_partner(const coupler::Job& job,
   switch (decide_partner(coupler::Role::fv, job.has_partner(), scene, config, options)) {
     case PartnerPlayer::program:
       job.compare(scene.contract(), plan.deadline);
-      return recorded(job.sph_partner(plan), options);
+      return recorded(job.sph_partner(plan), options, scene);
     case PartnerPlayer::formula:
       return recorded(coupler::analytic_sph_partner(analytic_flow(scene, config.analytic), plan, job.comm()),
-                      options);
+                      options, scene);
     case PartnerPlayer::record:
-      return coupler::replayed_sph_partner(options.replay);
+      return coupler::replayed_sph_partner(options.replay, scene.restart_digest);
     case PartnerPlayer::nobody:
       break;
   }

@@ -395,6 +395,13 @@ TEST_F(RecordTest, RefusesWishesTheRecordDoesNotHold) {
   }
 }
 
+TEST_F(RecordTest, RefusesAnotherScene) {
+  run(*recording(analytic_fv_partner(uniform_stream({1, 0, 0}, 2.0), plan_of(4), 0.25, 2), path(), "deep"));
+  EXPECT_NO_THROW(replayed_fv_partner(path(), "deep"));
+  expect_refused("was recorded in another scene (deep, this run has shallow)",
+                 [&] { replayed_fv_partner(path(), "shallow"); });
+}
+
 TEST_F(RecordTest, RefusesWhatIsNoRecord) {
   expect_refused<IoError>("No such file", [&] { replayed_fv_partner(path("absent.h5")); });
   std::ofstream(path("text.h5")) << "not HDF5 at all";
