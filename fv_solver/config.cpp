@@ -1,6 +1,7 @@
 #include "config.hpp"
 
 #include "littoral/error.hpp"
+#include "littoral/support/both_files.hpp"
 
 namespace littoral::fv {
 namespace {
@@ -332,19 +333,12 @@ FvConfig FvConfig::from_file(const std::string& path, const std::vector<std::str
                              const std::vector<std::string>& scene_settings, support::Scene& scene) {
   support::Document document = support::Document::from_file(path);
   for (const auto& setting : settings) document.set(setting);
-  // the scene first: its constants may be used in this file's formulas. It is named in this file.
   FvConfig config;
-  Binder first(document);
-  first.key("scene", config.scene).doc("The scene's file, relative to this one.");
-  scene = support::Scene::from_file(document.resolve(config.scene), scene_settings);
+  scene = support::read_both_files(document, scene_settings, [&](Binder& binder) { config.bind(binder); });
   if (scene.has_body_force())
     throw ConfigError(document.resolve(config.scene) +
                       ": body_force acts on particles only; give the grid its force per volume in fv.yaml, "
                       "source.u, source.v, source.w, and leave body_force out.");
-  Binder binder(document);
-  binder.use_constants(scene.constants);
-  config.bind(binder);
-  binder.finish();
   for (GridFileConfig& grid : config.grid_files) grid.file = document.resolve(grid.file);
   return config;
 }

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "littoral/error.hpp"
+#include "littoral/support/both_files.hpp"
 
 namespace littoral::sph {
 namespace {
@@ -128,20 +129,35 @@ void Config::bind(support::Binder& b) {
             "no field is called '" + field + "'");
 }
 
+namespace {
+
+/// A gauge outside the domain would record nothing but NaN.
+void check_gauges(const std::string& path, const RunConfig& config) {
+  const support::Scene& scene = config.scene;
+  std::ostringstream problems;
+  for (const GaugeConfig& gauge : config.sph.gauges)
+    for (std::size_t d = 0; d < 3; ++d) {
+      if (!scene.active(d) || (d == 2 && gauge.kind == GaugeConfig::Kind::elevation)) continue;
+      const double lower = scene.domain.lower[d], upper = scene.domain.upper[d];
+      const double slack = 1e-9 * (upper - lower);  // a place on the edge, by a formula
+      if (gauge.position[d] >= lower - slack && gauge.position[d] <= upper + slack) continue;
+      problems << (problems.tellp() > 0 ? "\n" : "") << path << ": gauge '" << gauge.name << "': "
+               << "xyz"[d] << " = " << gauge.position[d] << " m is outside the domain, which reaches from "
+               << lower << " to " << upper << " m. Move it inside.";
+    }
+  if (problems.tellp() > 0) throw ConfigError(problems.str());
+}
+
+}  // namespace
+
 RunConfig read_config(const std::string& path, const std::vector<std::string>& settings,
                       const std::vector<std::string>& scene_settings) {
   support::Document document = support::Document::from_file(path);
   for (const auto& setting : settings) document.set(setting);
   RunConfig config;
-  {
-    support::Binder first(document);  // the scene first: this file's formulas may use its constants
-    first.key("scene", config.sph.scene).doc("");
-  }
-  config.scene = support::Scene::from_file(document.resolve(config.sph.scene), scene_settings);
-  support::Binder binder(document);
-  binder.use_constants(config.scene.constants);
-  config.sph.bind(binder);
-  binder.finish();
+  config.scene = support::read_both_files(document, scene_settings,
+                                          [&](support::Binder& binder) { config.sph.bind(binder); });
+  check_gauges(path, config);
   for (auto& gauge : config.sph.gauges) gauge.dry_pressure = config.scene.fluid.reference_pressure;
   if (!std::isfinite(config.scene.fluid.sound_speed))
     throw ConfigError(

@@ -83,6 +83,10 @@ void check_coupling(const Scene& s, Binder& b) {
   if (b.sound({"coupling.dt", "coupling.substeps"}))
     b.check(!s.coupling.window.dt || s.coupling.window.substeps == 1, "coupling.substeps",
             "given together with coupling.dt; give one of them.");
+  if (b.sound({"coupling.dt", "time.end"}))
+    b.check(!s.coupling.window.dt || *s.coupling.window.dt <= s.time.end, "coupling.dt",
+            "a window of " + format_number(s.coupling.window.dt.value_or(0.0)) +
+                " s is longer than the whole run, time.end = " + format_number(s.time.end) + " s.");
   if (!b.sound({"coupling.kind", "regions"})) return;
   for (std::size_t r = 0; r < s.regions.size(); ++r)
     for (std::size_t d = 0; d < 3; ++d)

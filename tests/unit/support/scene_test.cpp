@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "littoral/support/both_files.hpp"
 #include "support_test.hpp"
 
 namespace littoral::support {
@@ -160,6 +161,36 @@ TEST_F(SceneTest, RegionsAndLayers) {
   EXPECT_CONTAINS(refusal({"fluid.sound_speed=.inf"}),
                   "'fluid.sound_speed': particles need a finite sound speed");
   EXPECT_CONTAINS(refusal({"coupling.dt=0.1", "coupling.substeps=2"}), "given together with coupling.dt");
+}
+
+TEST_F(SceneTest, AWindowLongerThanTheRunIsRefused) {
+  EXPECT_NE(refusal({"coupling.dt=18"}).find("'coupling.dt': a window of 18 s is longer than the whole run"),
+            std::string::npos);
+  EXPECT_EQ(read({"coupling.dt=17.8"}).coupling.window.dt, 17.8);
+}
+
+TEST_F(SceneTest, ProblemsOfBothFilesAreShownTogether) {
+  write_text(folder_ / "scene.yaml", k_wave);
+  write_text(folder_ / "own.yaml", "scene: scene.yaml\nlength: 2*H\n");
+  const auto read_own = [&](const std::vector<std::string>& scene_settings, const std::string& own_setting) {
+    Document own = Document::from_file(folder_ / "own.yaml");
+    if (!own_setting.empty()) own.set(own_setting);
+    double length = 0.0;
+    std::string scene;
+    read_both_files(own, scene_settings, [&](Binder& b) {
+      b.key("scene", scene).doc("");
+      b.key("length", length).min(0).doc("");
+    });
+    return length;
+  };
+  EXPECT_EQ(read_own({}, ""), 2.0);
+  const std::string both = message_of<ConfigError>([&] { read_own({"fluid.density=-1"}, "lenght=3"); });
+  EXPECT_NE(both.find("fluid.density"), std::string::npos) << both;
+  EXPECT_NE(both.find("'lenght'"), std::string::npos) << both;
+  // constants that are wrong say nothing about the formulas that use them
+  const std::string one = message_of<ConfigError>([&] { read_own({"constants.H=oops"}, ""); });
+  EXPECT_NE(one.find("constants.H"), std::string::npos) << one;
+  EXPECT_EQ(one.find("length"), std::string::npos) << one;
 }
 
 TEST_F(SceneTest, RefusesWhatIsNoScene) {

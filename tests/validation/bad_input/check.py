@@ -9,9 +9,16 @@ SECONDS = 20.0  # two programs start, read and compare in about one; the rest is
 
 # name: (settings, what the message must contain)
 SETTINGS = {
-    "misspelt key of the scene": (["scene.fluid.densty=1000"], "densty.*density"),
-    "misspelt key of the particles": (["sph.spacng=0.04"], "spacng.*spacing"),
-    "misspelt key of the grid": (["fv.dual_time.drp=0.1"], "drp.*drop"),
+    "misspelt key of the scene": (["scene.fluid.densty=1000"],
+                                  r"unknown key 'fluid\.densty'\. Did you mean 'fluid\.density'\?"),
+    "misspelt key of the particles": (["sph.spacng=0.04"], r"unknown key 'spacng'\. Did you mean 'spacing'\?"),
+    "misspelt key of the grid": (["fv.dual_time.drp=0.1"],
+                                 r"unknown key 'dual_time\.drp'\. Did you mean 'dual_time\.drop'\?"),
+    "mistakes in both files": (["scene.fluid.densty=1000", "sph.spacng=0.04"],
+                               r"(?=.*unknown key 'fluid\.densty')(?=.*unknown key 'spacng')"),
+    "window longer than the run": (["scene.coupling.dt=50"], r"coupling\.dt.* 50 s is longer than the whole run"),
+    "gauge outside the domain": (["sph.gauges[0].position=[-3, 0, 0]"],
+                                 r"gauge 'antinode': x = -3 m is outside the domain"),
     "negative spacing": (["sph.spacing=-0.04"], "spacing.*-0.04"),
     "wrong type": (["scene.time.end=long"], "time.end.*long"),
     "bad formula": (["scene.initial.u=cso(x)"], "cso"),
