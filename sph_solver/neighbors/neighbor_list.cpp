@@ -64,7 +64,7 @@ std::size_t NeighborList<D>::fill(const Particles<D>& particles, std::size_t roo
   const auto most_threads = static_cast<std::size_t>(omp_get_max_threads());
   const double reach_squared = reach() * reach();
   const std::int32_t* order = grid_.order().data();
-  std::vector<std::size_t> filled(most_threads, 0), first(most_threads + 1, n);
+  std::vector<std::size_t> filled(most_threads, 0), wanted(most_threads, 0), first(most_threads + 1, n);
   list_.resize(room * most_threads);
 #pragma omp parallel
   {
@@ -74,12 +74,13 @@ std::size_t NeighborList<D>::fill(const Particles<D>& particles, std::size_t roo
     first[thread] = begin;
     std::int32_t* const share = list_.data() + thread * room;
     std::vector<std::int32_t> too_long;  // for rows that find no room: they are counted only
-    std::size_t used = 0;
+    std::size_t used = 0, most_candidates = 0;
     for (std::size_t i = begin; i < end; ++i) {
       std::array<double, D> x;
       for (std::size_t d = 0; d < D; ++d) x[d] = particles.x[d][i];
       std::size_t candidates = k_append_room;
       grid_.for_each_range(x, reach(), [&](std::size_t b, std::size_t e) { candidates += e - b; });
+      most_candidates = std::max(most_candidates, candidates);
       const bool fits = used + candidates <= room;
       if (!fits) too_long.resize(std::max(too_long.size(), candidates));
       std::int32_t* const row = fits ? share + used : too_long.data();
@@ -89,11 +90,12 @@ std::size_t NeighborList<D>::fill(const Particles<D>& particles, std::size_t roo
                                    row + length);
       });
       start_[i + 1] = length;
-      used += fits ? length : candidates;
+      used += length;
     }
     filled[thread] = used;
+    wanted[thread] = used + most_candidates;  // enough for every row, whatever comes before it
   }
-  const std::size_t needed = *std::max_element(filled.begin(), filled.end());
+  const std::size_t needed = *std::max_element(wanted.begin(), wanted.end());
   if (needed > room) return needed;
   for (std::size_t i = 0; i < n; ++i) start_[i + 1] += start_[i];
   for (std::size_t t = 1; t < most_threads; ++t)  // the shares join, each moving towards the beginning

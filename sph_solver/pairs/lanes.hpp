@@ -57,8 +57,9 @@ inline Vector largest(Vector a, Vector b) {
 /// Sum of the lanes, in an order of its own that is always the same.
 inline double sum(Lanes<double> v) { return (v[0] + v[2]) + (v[1] + v[3]); }
 inline double sum(Lanes<float> v) {
-  const auto w = [&v](std::size_t k) { return static_cast<double>(v[k]) + static_cast<double>(v[k + 4]); };
-  return (w(0) + w(2)) + (w(1) + w(3));
+  const auto low = __builtin_shufflevector(v, v, 0, 1, 2, 3),
+             high = __builtin_shufflevector(v, v, 4, 5, 6, 7);
+  return sum(__builtin_convertvector(low, Lanes<double>) + __builtin_convertvector(high, Lanes<double>));
 }
 
 /// Values 0 .. n-1 of the rows j[0], j[1], ... of a table, rows turned into lanes: q[a] lane k = row j[k],
