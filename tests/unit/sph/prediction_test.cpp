@@ -62,7 +62,7 @@ TEST(PlaceParticlesTest, WhereLayersOfTwoBoxesOverlapTheLatticeStandsOnce) {
   config.scene.regions[1].lower = {1.0, 0.0, 0.0};
   config.scene.regions[1].upper = {2.0, 0.0, 0.4};
   Particles<2> particles;
-  place_particles<2>(config, region_of<2>(config, true), particles);
+  place_particles<2>(config, region_of<2>(config, true), nullptr, particles);
   // outer boxes 1.4 x 1.4, and .8 more of one 1.4 x .8
   EXPECT_EQ(particles.n_owned,
             static_cast<std::size_t>(std::lround((1.4 * 1.4 + 1.0 * 0.8) / (0.025 * 0.025))));
