@@ -48,6 +48,11 @@ def default_kernel_radius(dimension, fidelity):
     return 2.7 if dimension == 3 else 3.0 if fidelity == "draft" else 4.0
 
 
+def default_cfl(integrator):
+    """As sph_solver/physics/integrator.hpp has it."""
+    return 0.27 if integrator == "midpoint" else 0.375
+
+
 def predict(scene, configs):
     """Lines for the user; upper bounds, since the dry part of a region is not known before the run."""
     lines = []
@@ -62,7 +67,9 @@ def predict(scene, configs):
         spacings = find(configs["sph"], ("kernel_radius",))
         radius = (default_kernel_radius(len(axes(scene)), find(configs["sph"], ("fidelity",)))
                   if spacings in (None, "auto") else float(spacings))
-        cfl = find(configs["sph"], ("cfl",)) or 0.375
+        given_cfl = find(configs["sph"], ("cfl",))
+        cfl = (default_cfl(find(configs["sph"], ("integrator",))) if given_cfl in (None, "auto")
+               else evaluate(given_cfl, constants))
         c = scene.value("fluid.sound_speed", 0.0)
         end = scene.value("time.end", 0.0)
         if c and math.isfinite(c) and end:
