@@ -20,7 +20,8 @@ const std::vector<std::pair<std::string, int>> k_conditions = {
     {"periodic", static_cast<int>(Condition::periodic)},
     {"fringe", static_cast<int>(Condition::fringe)},
     {"join", static_cast<int>(Condition::join)},
-    {"overset", static_cast<int>(Condition::overset)}};
+    {"overset", static_cast<int>(Condition::overset)},
+    {"convective", static_cast<int>(Condition::convective)}};
 
 const std::array<std::string, 3> k_axes = {"x", "y", "z"};
 const std::vector<std::pair<std::string, int>> k_faces = {{"x_lower", 0}, {"x_upper", 1}, {"y_lower", 2},
@@ -171,7 +172,8 @@ void FaceConfig::bind(Binder& b) {
           "state: all given in two layers of ghosts; periodic; fringe: none, for faces whose cells the "
           "particles impose or blank; join: the faces of another block (or of this one) that lie at the same "
           "place, in any orientation; see join; overset: the cells beside the face take their values from "
-          "the grids below.");
+          "the grids below; convective: p and u are carried out with wave_speed, for wakes and vortices, and p "
+          "returns slowly to the given one.");
   b.key("name", name).doc("Of the wall or opening, for forces and messages; left out: block.face.");
   b.key("u", u).unit("m/s").doc("Velocity along x on the face.");
   b.key("v", v).unit("m/s").doc("Velocity along y on the face; 3-D only.");
@@ -182,7 +184,7 @@ void FaceConfig::bind(Binder& b) {
       .min(0)
       .doc(
           "far_field: speed of the Riemann problem; of the order of the stream's; 0: that of the given "
-          "velocity.");
+          "velocity. convective: speed with which the flow leaves; 0: the pseudo sound speed.");
   b.section("join", "With whom, condition join only. The orientation follows from the nodes and is reported.",
             [&] {
               b.key("block", join.block).doc("Name of the other block; left out: whichever is met.");
@@ -224,8 +226,38 @@ void BlockConfig::bind(Binder& b) {
                       });
 }
 
+void SpongeConfig::bind(Binder& b) {
+  b.choice("axis", axis, {{"x", 0}, {"y", 1}, {"z", 2}, {"radius", 3}})
+      .doc("Along which the damping grows; radius: the distance from `centre`.");
+  b.key("centre", centre).unit("m").doc("Of the distance; radius only. In 2-D y is not used.");
+  b.key("from", from).required().unit("m").doc("Where the damping begins, from 0.");
+  b.key("to", to).required().unit("m").doc(
+      "Where it reaches `rate`; below `from` for a zone at the lower side.");
+  b.key("rate", rate)
+      .required()
+      .unit("1/s")
+      .min(0)
+      .doc("Of the difference from the given velocity, at `to`.");
+  b.key("power", power).min(0).doc("With which the damping grows between from and to.");
+  b.key("u", u).unit("m/s").doc("Velocity along x to damp towards; left out: 0.");
+  b.key("v", v).unit("m/s").doc("Velocity along y; 3-D only.");
+  b.key("w", w).unit("m/s").doc("Velocity along z.");
+}
+
+/// Values that the preset gives where the file says nothing; measured in tests/validation/fv_choices.
+void FvConfig::apply_fidelity() {
+  dual_time.drop = fidelity == Fidelity::draft ? 1e-2 : fidelity == Fidelity::standard ? 1e-3 : 1e-5;
+  flux = fidelity == Fidelity::reference ? FluxScheme::central4 : FluxScheme::upwind3;
+}
+
 void FvConfig::bind(Binder& b) {
   b.key("scene", scene).doc("The scene's file, relative to this one.");
+  b.choice("fidelity", fidelity,
+           {{"draft", Fidelity::draft}, {"standard", Fidelity::standard}, {"reference", Fidelity::reference}})
+      .doc(
+          "Preset of dual_time.drop and flux, which may still be given: draft 1e-2, upwind3; standard 1e-3, "
+          "upwind3; reference 1e-5, central4.");
+  if (b.mode() == Binder::Mode::read) apply_fidelity();
   b.choice("joins", joins, {{"auto", Joins::automatic}, {"listed", Joins::listed}})
       .doc(
           "auto: faces without a condition of their own are joined where their nodes meet those of another "
@@ -282,8 +314,16 @@ void FvConfig::bind(Binder& b) {
         .unit("m/s")
         .exclusive_min(0)
         .doc("sqrt(beta), of the order of the flow speed; auto: the scene's reference velocity.");
+    using Precision = DualTime::Precision;
+    b.choice("precision", dual_time.precision,
+             {{"single", Precision::single}, {"double", Precision::twofold}})
+        .doc("Of the multigrid's blocks and corrections; the state is always double.");
     b.key("print_history", dual_time.print_history).doc("Log the residual after each cycle.");
   });
+  b.choice("flux", flux, {{"upwind3", FluxScheme::upwind3}, {"central4", FluxScheme::central4}})
+      .doc(
+          "upwind3: momentum is carried with the third-order value upwind; central4: with the fourth-order "
+          "central one and a quarter of the third-difference dissipation.");
   b.choice("limiter", limiter, {{"none", Limiter::none}, {"van_albada", Limiter::van_albada}})
       .doc("Of the third-order reconstruction.");
   b.key("forcing_constant", forcing_constant)
@@ -296,6 +336,8 @@ void FvConfig::bind(Binder& b) {
     b.key("v", source.v).unit("N/m^3").doc("Force along y; 3-D only.");
     b.key("w", source.w).unit("N/m^3").doc("Force along z.");
   });
+  b.list<SpongeConfig>("sponges", "Zones that damp the flow towards a given velocity.", sponges,
+                       [](Binder& item, SpongeConfig& sponge) { sponge.bind(item); });
   b.list<GaugeConfig>("gauges", "Values written to gauges.csv.", gauges, [](Binder& item, GaugeConfig& g) {
     item.key("name", g.name).required().doc("Column prefix.");
     item.choice("kind", g.kind,
@@ -324,6 +366,8 @@ void FvConfig::bind(Binder& b) {
   if (b.mode() != Binder::Mode::read) return;
   b.check(n_parts() > 0, "blocks", "a grid needs at least one of blocks, rings, plates, grid_files.");
   b.check(!(time.dt && time.cfl), "time.cfl", "given together with time.dt; give one of them.");
+  for (const auto& s : sponges)
+    b.check(s.from != s.to, "sponges", "from and to of a sponge are the same place.");
   for (const auto& g : gauges)
     b.check(g.kind == GaugeConfig::Kind::point || !g.wall.empty(), "gauges",
             "a force or y_plus gauge needs a wall: its name.");

@@ -141,6 +141,14 @@ struct PlateConfig {
   void bind(support::Binder& b);
 };
 
+struct SpongeConfig {
+  int axis = 0;                                          // x, y, z, radius
+  std::array<double, 3> centre = {0, 0, 0};              // [m] radius only
+  double from = 0.0, to = 0.0, rate = 0.0, power = 2.0;  // [m], [m], [1/s], [-]
+  std::optional<support::Formula> u, v, w;               // [m/s]
+  void bind(support::Binder& b);
+};
+
 struct GaugeConfig {
   enum class Kind : std::uint8_t { point, force, y_plus };
   std::string name;
@@ -179,8 +187,15 @@ struct FvConfig {
     double kappa = 0.5;
     std::optional<double> pseudo_sound_speed;  // [m/s] sqrt(beta)
     bool print_history = false;
+    enum class Precision : std::uint8_t { single, twofold };
+    Precision precision = Precision::single;
   } dual_time;
 
+  enum class Fidelity : std::uint8_t { draft, standard, reference };
+  Fidelity fidelity = Fidelity::standard;
+  void apply_fidelity();
+
+  FluxScheme flux = FluxScheme::upwind3;
   Limiter limiter = Limiter::none;
   double forcing_constant = 10.0;  // K of (21)
   support::PartnerConfig partner;
@@ -189,6 +204,7 @@ struct FvConfig {
     std::optional<support::Formula> mass, u, v, w;
   } source;
 
+  std::vector<SpongeConfig> sponges;
   std::vector<GaugeConfig> gauges;
   struct Output {
     bool fields = true;

@@ -28,6 +28,27 @@ Fluid<D> fluid_of(const support::Scene& scene) {
   return fluid;
 }
 
+template <int D>
+std::vector<Sponge<D>> sponges_of(const FvConfig& config, const support::Scene& scene) {
+  if (scene.coupling.kind == support::Scene::CouplingKind::forced)
+    throw ConfigError(
+        "sponges: not together with coupling.kind: forced, whose cells use the same rows; use imposed, or a "
+        "far_field");
+  std::vector<Sponge<D>> sponges;
+  for (const SpongeConfig& s : config.sponges) {
+    Sponge<D> sponge{s.axis, s.centre, s.from, s.to, s.rate, s.power, {}};
+    if (D == 2) sponge.centre[1] = 0.0;
+    const std::array<const std::optional<support::Formula>*, 3> formulas = {&s.u, &s.v, &s.w};
+    for (std::size_t k = 0; k < D; ++k)
+      if (const auto& formula = *formulas[axis_in_space<D>(k)])
+        sponge.velocity[k] = [f = *formula](const std::array<double, 3>& x, double t) {
+          return f(x[0], x[1], x[2], t);
+        };
+    sponges.push_back(std::move(sponge));
+  }
+  return sponges;
+}
+
 double velocity_scale(const FvConfig& config, const support::Scene& scene) {
   if (std::isfinite(scene.velocity_scale())) return scene.velocity_scale();
   if (config.dual_time.pseudo_sound_speed) return *config.dual_time.pseudo_sound_speed;
@@ -101,6 +122,7 @@ Stepper<D> make_stepper(const FvConfig& config, const support::Scene& scene,
   Equations<D> equations;
   equations.fluid = fluid_of<D>(scene);
   equations.limiter = config.limiter;
+  equations.flux = config.flux;
   const double velocity = velocity_scale(config, scene);
   equations.speeds.c0 = config.dual_time.pseudo_sound_speed.value_or(velocity);
   equations.speeds.kappa = config.dual_time.kappa;
@@ -113,7 +135,9 @@ Stepper<D> make_stepper(const FvConfig& config, const support::Scene& scene,
   if (config.dual_time.method == FvConfig::DualTime::Method::plain)
     solver = std::make_unique<PlainDualTime<D>>(config.dual_time.pseudo_cfl);
   else
-    solver = std::make_unique<MultigridSolver<D>>();
+    solver = config.dual_time.precision == FvConfig::DualTime::Precision::single
+                 ? std::unique_ptr<StepSolver<D>>(std::make_unique<MultigridSolver<D, float>>())
+                 : std::make_unique<MultigridSolver<D, double>>();
 
   Stepper<D> stepper(std::move(grid.blocks), equations, std::move(solver), tolerance,
                      std::move(grid.overset.links));
@@ -142,6 +166,7 @@ Stepper<D> make_stepper(const FvConfig& config, const support::Scene& scene,
       for (std::size_t k = 0; k < D; ++k) s.momentum[k] = force[axis_in_space<D>(k)];
       return s;
     });
+  if (!config.sponges.empty()) stepper.set_sponges(sponges_of<D>(config, scene));
   return stepper;
 }
 

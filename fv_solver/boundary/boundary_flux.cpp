@@ -61,7 +61,7 @@ void compute_boundary_fluxes(const Block<D>& block, const Fluid<D>& fluid, const
   for (const Window<D>& w : block.windows) {
     if (w.condition == Condition::periodic || w.condition == Condition::state ||
         w.condition == Condition::fringe || w.condition == Condition::join ||
-        w.condition == Condition::overset)
+        w.condition == Condition::overset || w.condition == Condition::convective)
       continue;
     const auto d = static_cast<std::size_t>(w.direction);
     FaceFlux<D>& face = fluxes[d][static_cast<std::size_t>(w.side)];

@@ -1,5 +1,7 @@
 #include "boundary/ghosts.hpp"
 
+#include <cmath>
+
 #include "boundary/line.hpp"
 #include "grid/loops.hpp"
 #include "grid/space.hpp"
@@ -27,6 +29,8 @@ const char* name(Condition condition) {
       return "periodic";
     case Condition::fringe:
       return "fringe";
+    case Condition::convective:
+      return "convective";
     case Condition::join:
       return "join";
     case Condition::overset:
@@ -71,7 +75,7 @@ void evaluate_windows(Block<D>& block, const Equations<D>& equations, double t) 
     const bool uses_u = w.condition == Condition::wall || w.condition == Condition::inflow ||
                         w.condition == Condition::far_field || w.condition == Condition::state;
     const bool uses_p = w.condition == Condition::outflow || w.condition == Condition::far_field ||
-                        w.condition == Condition::state;
+                        w.condition == Condition::state || w.condition == Condition::convective;
     if (!uses_u && !uses_p) continue;
     const std::size_t layers = w.condition == Condition::state ? 2 : 1;
     for (std::size_t layer = 0; layer < layers; ++layer) {
@@ -96,7 +100,56 @@ void evaluate_windows(Block<D>& block, const Equations<D>& equations, double t) 
   }
 }
 
+template <int D>
+void carry_windows(Block<D>& block, const Equations<D>& equations, const BackwardDifference& scheme,
+                   const State<D>& now, const State<D>& before) {
+  for (Window<D>& w : block.windows) {
+    if (w.condition != Condition::convective) continue;
+    w.carried_a0 = scheme.a0;
+    w.carried_speed = w.wave_speed > 0.0 ? w.wave_speed : equations.speeds.c0;
+    w.carried_p.clear();
+    for (auto& u : w.carried_u) u.clear();
+    std::array<int, D> lower, upper;
+    grown_box<D>(block, w, lower, upper);
+    for_each_index<D>(lower, upper, [&](const std::array<int, D>& index) {
+      const std::size_t g = Line<D>(block, w, block.extent.at(index)).ghost[0];
+      const double reference = block.reference_pressure[g];
+      w.carried_p.push_back(-scheme.a1 * (now.p[g] - reference) - scheme.a2 * (before.p[g] - reference));
+      for (std::size_t k = 0; k < D; ++k)
+        w.carried_u[k].push_back(-scheme.a1 * now.u[k][g] - scheme.a2 * before.u[k][g]);
+    });
+  }
+}
+
 namespace {
+
+/// d q/dt + U dq/dn = 0 at the first ghost, upwind from the cell inside and in the step's own backward
+/// difference; p also + (p - given)/T, T = L/(.27 U) with the block's length L (Rudy & Strikwerda 1980), so
+/// that its level does not drift. The second ghost continues linearly.
+template <int D>
+void carry_out(const Block<D>& block, const Window<D>& w, const Line<D>& line, double d0, std::size_t flat,
+               State<D>& q) {
+  if (w.carried_a0 == 0.0) return;
+  constexpr double k_return = 0.27;
+  const std::size_t i0 = line.inner[0], g0 = line.ghost[0], g1 = line.ghost[1];
+  double length2 = 0.0;
+  for (std::size_t k = 0; k < D; ++k) {
+    const double x = block.centre[k][i0] - block.centre[k][line.opposite[0]];
+    length2 += x * x;
+  }
+  const double out = w.carried_speed / (2.0 * d0);
+  const double back = k_return * w.carried_speed / (std::sqrt(length2) + 2.0 * d0);
+  const double* reference = block.reference_pressure.data();
+  const double p0 = q.p[i0] - reference[i0];
+  const double p = (w.carried_p[flat] + out * p0 + back * w.given_p[0][flat]) / (w.carried_a0 + out + back);
+  q.p[g0] = reference[g0] + p;
+  q.p[g1] = reference[g1] + 2.0 * p - p0;
+  for (std::size_t k = 0; k < D; ++k) {
+    double* u = q.u[k].data();
+    u[g0] = (w.carried_u[k][flat] + out * u[i0]) / (w.carried_a0 + out);
+    u[g1] = 2.0 * u[g0] - u[i0];
+  }
+}
 
 template <int D>
 void fill_window(const Block<D>& block, const Window<D>& w, State<D>& q) {
@@ -160,6 +213,9 @@ void fill_window(const Block<D>& block, const Window<D>& w, State<D>& q) {
           for (std::size_t k = 0; k < D; ++k) q.u[k][g] = w.given_u[0][k][flat];
           p[g] = reference[g] + w.given_p[0][flat];
         }
+        break;
+      case Condition::convective:
+        carry_out<D>(block, w, line, d0, flat, q);
         break;
       case Condition::state:
         for (std::size_t layer = 0; layer < 2; ++layer) {
@@ -230,6 +286,10 @@ template void grown_box<2>(const Block<2>&, const Window<2>&, std::array<int, 2>
 template void grown_box<3>(const Block<3>&, const Window<3>&, std::array<int, 3>&, std::array<int, 3>&);
 template void evaluate_windows(Block<2>&, const Equations<2>&, double);
 template void evaluate_windows(Block<3>&, const Equations<3>&, double);
+template void carry_windows(Block<2>&, const Equations<2>&, const BackwardDifference&, const State<2>&,
+                            const State<2>&);
+template void carry_windows(Block<3>&, const Equations<3>&, const BackwardDifference&, const State<3>&,
+                            const State<3>&);
 template void fill_ghosts(const Block<2>&, State<2>&);
 template void fill_ghosts(const Block<3>&, State<3>&);
 template void check_windows(const Block<2>&);

@@ -9,6 +9,12 @@ namespace littoral::fv {
 template <int D>
 void evaluate_windows(Block<D>& block, const Equations<D>& equations, double t);
 
+/// Takes from the last two time levels what convective windows carry out in the step of `scheme`. Call once a
+/// step, with evaluate_windows.
+template <int D>
+void carry_windows(Block<D>& block, const Equations<D>& equations, const BackwardDifference& scheme,
+                   const State<D>& now, const State<D>& before);
+
 /// Sets p and u in all ghost cells, edges and corners included, from the inner cells and the windows' given
 /// values: directions in turn, each over the ghosts of those before. Ghosts behind `fringe` and `join`
 /// windows are left alone (boundary/exchange.hpp). Pressures are treated relative to the hydrostatic

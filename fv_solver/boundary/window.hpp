@@ -20,6 +20,7 @@ namespace littoral::fv {
 ///   state      p and u given in both ghost layers, ordinary flux
 ///   periodic   the opposite face of the same block
 ///   fringe     nothing: only beside cells that are not solved (imposed or blanked)
+///   convective p and u are carried out with a given speed; p also returns slowly to a given level
 ///   join       the cells of another block (or of another face of the same one) beyond the face
 ///   overset    nothing: the cells beside it take their values from an overlapping grid
 enum class Condition : std::uint8_t {
@@ -33,7 +34,8 @@ enum class Condition : std::uint8_t {
   periodic,
   fringe,
   join,
-  overset
+  overset,
+  convective
 };
 const char* name(Condition condition);
 
@@ -51,7 +53,8 @@ struct Window {
   std::array<int, D> upper{};          // one past the last cell
   std::array<Prescribed, D> velocity;  // [m/s] empty: 0
   Prescribed pressure;                 // [Pa] absolute; empty: the hydrostatic reference
-  double wave_speed = 0.0;             // [m/s] far_field only; 0: |u| of the given state, at least c0/10
+  double wave_speed = 0.0;             // [m/s] far_field; 0: |u| of the given state, at least c0/10.
+                                       // convective: of what leaves; 0: c0
   Join<D> join;                        // condition join only: the other side
   JoinRequest<D> request;              // of a window whose block may meet another one; see find_joins
 
@@ -59,6 +62,13 @@ struct Window {
   /// directions, per layer (0: at the face, or the first ghost layer for `state`; 1: second ghost layer).
   std::array<std::vector<double>, 2> given_p;                 // [Pa] relative to the hydrostatic reference
   std::array<std::array<std::vector<double>, D>, 2> given_u;  // [m/s]
+
+  /// convective: what the first ghosts keep of the steps before, -(a1 q^n + a2 q^n-1), and a0, set by
+  /// carry_windows; a0 = 0: no step yet, the ghosts stay as they are.
+  std::vector<double> carried_p;                 // [Pa/s] relative to the hydrostatic reference
+  std::array<std::vector<double>, D> carried_u;  // [m/s^2]
+  double carried_a0 = 0.0;                       // [1/s]
+  double carried_speed = 0.0;                    // [m/s]
 };
 
 }  // namespace littoral::fv

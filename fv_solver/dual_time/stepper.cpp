@@ -6,6 +6,7 @@
 
 #include "boundary/ghosts.hpp"
 #include "grid/loops.hpp"
+#include "grid/space.hpp"
 #include "littoral/error.hpp"
 
 namespace littoral::fv {
@@ -68,6 +69,46 @@ void Stepper<D>::initialise(const FlowFunction<D>& flow, double t) {
 }
 
 template <int D>
+void Stepper<D>::set_sponges(std::vector<Sponge<D>> sponges) {
+  sponges_ = std::move(sponges);
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const Block<D>& block = blocks_[b];
+    Field rate(block.extent.size, 0.0);
+    bool any = false;
+    for_each_index<D>({}, block.extent.n, [&](const std::array<int, D>& index) {
+      const std::ptrdiff_t c = block.extent.at(index);
+      for (const Sponge<D>& sponge : sponges_)
+        rate[static_cast<std::size_t>(c)] += sponge.strength(centre_in_space<D>(block, c));
+      any = any || rate[static_cast<std::size_t>(c)] > 0.0;
+    });
+    if (!any) continue;
+    forcing_[b].rate = std::move(rate);
+    forcing_[b].target.resize(block.extent.size);
+  }
+}
+
+/// u* at time t; where sponges overlap, the mean weighted with their strengths.
+template <int D>
+void Stepper<D>::aim_sponges(double t) {
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    if (!forcing_[b].active()) continue;
+    const Block<D>& block = blocks_[b];
+    for_each_index<D>({}, block.extent.n, [&](const std::array<int, D>& index) {
+      const std::ptrdiff_t offset = block.extent.at(index);
+      const auto c = static_cast<std::size_t>(offset);
+      if (forcing_[b].rate[c] == 0.0) return;
+      const coupler::Vec3 x = centre_in_space<D>(block, offset);
+      for (std::size_t k = 0; k < D; ++k) {
+        double sum = 0.0;
+        for (const Sponge<D>& sponge : sponges_)
+          if (sponge.velocity[k]) sum += sponge.strength(x) * sponge.velocity[k](x, t);
+        forcing_[b].target.u[k][c] = sum / forcing_[b].rate[c];
+      }
+    });
+  }
+}
+
+template <int D>
 BackwardDifference Stepper<D>::scheme(double dt) const {
   return known_ > 1 ? BackwardDifference::second_order(dt, dt_[0]) : BackwardDifference::first_order(dt);
 }
@@ -117,7 +158,9 @@ StepReport Stepper<D>::advance(double dt, const std::vector<Imposed<D>>& imposed
       }
     }
     evaluate_windows(blocks_[b], equations_, t);
+    carry_windows(blocks_[b], equations_, s, level_[0][b], level_[1][b]);
   }
+  if (!sponges_.empty()) aim_sponges(t);
   level_[3] = std::move(level_[2]);
   level_[2] = std::move(level_[1]);
   level_[1] = std::move(level_[0]);

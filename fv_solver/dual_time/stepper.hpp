@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dual_time/step_solver.hpp"
+#include "physics/sponge.hpp"
 
 namespace littoral::fv {
 
@@ -46,6 +47,9 @@ class Stepper {
   /// Sets the state everywhere from a formula, at time t; forgets older levels. throws StabilityError
   void initialise(const FlowFunction<D>& flow, double t);
   void set_source(SourceFunction<D> source) { source_ = std::move(source); }
+
+  /// Zones that damp the flow. Uses forcing(): not together with cells forced by a partner.
+  void set_sponges(std::vector<Sponge<D>> sponges);
 
   /// One step from time() to time() + dt. Fringe cells get `imposed` (one entry a block; empty: as they are),
   /// the values at the new time. Starts from extrapolated u and p = p^n (extrapolating p too lets forces
@@ -89,6 +93,7 @@ class Stepper {
  private:
   BackwardDifference scheme(double dt) const;
   void set_history(const BackwardDifference& scheme, double t);
+  void aim_sponges(double t);
   void check(const std::string& advice) const;
 
   std::vector<Block<D>> blocks_;
@@ -97,6 +102,7 @@ class Stepper {
   std::unique_ptr<StepSolver<D>> inner_;
   InnerTolerance tolerance_;
   SourceFunction<D> source_;
+  std::vector<Sponge<D>> sponges_;
   std::vector<Forcing<D>> forcing_;
   std::vector<History<D>> history_;
   // q^n, q^n-1, q^n-2, and one more so that a restored step still knows its derivative

@@ -30,6 +30,7 @@ EdgeCondition edge_condition(Condition condition) {
       return EdgeCondition::link;
     case Condition::far_field:
       return EdgeCondition::far_field;
+    case Condition::convective:
     case Condition::state:
     case Condition::fringe:
       break;
@@ -61,11 +62,11 @@ LevelGrid<D> level_grid(const Block<D>& block) {
 }
 
 /// The hierarchy for one set of blocks and statuses, and the work arrays over their solved cells.
-template <int D>
-struct MultigridSolver<D>::Levels {
+template <int D, class Real>
+struct MultigridSolver<D, Real>::Levels {
   std::vector<LevelGrid<D>> grids;
   std::vector<std::vector<std::ptrdiff_t>> cells;  // solved cells of each block
-  Multigrid<D, float> multigrid;
+  Multigrid<D, Real> multigrid;
   std::vector<Residual<D>> rows;
   std::vector<double> weights;  // 1/V for each unknown
   Anderson anderson;
@@ -127,7 +128,7 @@ struct MultigridSolver<D>::Levels {
       for (std::size_t i = 0; i <= D; ++i) {
         const double row = i == 0 ? per_mass * rows[b].mass[c] : per_momentum * rows[b].momentum[i - 1][c];
         r[at + i] = row;
-        right.q[i][c] = static_cast<float>(-row);
+        right.q[i][c] = static_cast<Real>(-row);
       }
     });
   }
@@ -186,14 +187,14 @@ struct MultigridSolver<D>::Levels {
   }
 };
 
-template <int D>
-MultigridSolver<D>::MultigridSolver(const MultigridSolverOptions& options) : options_(options) {}
-template <int D>
-MultigridSolver<D>::~MultigridSolver() = default;
+template <int D, class Real>
+MultigridSolver<D, Real>::MultigridSolver(const MultigridSolverOptions& options) : options_(options) {}
+template <int D, class Real>
+MultigridSolver<D, Real>::~MultigridSolver() = default;
 
-template <int D>
-StepReport MultigridSolver<D>::solve(const StepProblem<D>& problem, const InnerTolerance& tolerance,
-                                     std::vector<State<D>>& q) {
+template <int D, class Real>
+StepReport MultigridSolver<D, Real>::solve(const StepProblem<D>& problem, const InnerTolerance& tolerance,
+                                           std::vector<State<D>>& q) {
   if (!levels_ || !levels_->fits(problem.blocks))
     levels_ = std::make_unique<Levels>(problem.blocks, options_);
   Levels& levels = *levels_;
@@ -228,8 +229,10 @@ StepReport MultigridSolver<D>::solve(const StepProblem<D>& problem, const InnerT
   }
 }
 
-template class MultigridSolver<2>;
-template class MultigridSolver<3>;
+template class MultigridSolver<2, float>;
+template class MultigridSolver<3, float>;
+template class MultigridSolver<2, double>;
+template class MultigridSolver<3, double>;
 template LevelGrid<2> level_grid(const Block<2>&);
 template LevelGrid<3> level_grid(const Block<3>&);
 

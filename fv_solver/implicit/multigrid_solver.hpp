@@ -22,7 +22,8 @@ LevelGrid<D> level_grid(const Block<D>& block);
 /// of its first-order Jacobian, frozen at the step's start; Anderson mixing around it in the 1/V norm. There
 /// is no pseudo-time term: the pseudo-CFL is infinite. Start a step from u extrapolated and p = p^n:
 /// extrapolating both lets forces flip from step to step.
-template <int D>
+/// Real: of the blocks and corrections.
+template <int D, class Real = float>
 class MultigridSolver : public StepSolver<D> {
  public:
   explicit MultigridSolver(const MultigridSolverOptions& options = {});

@@ -52,7 +52,8 @@ class TileLoop {
                   f.inverse_c2,
                   equations.speeds.c0,
                   equations.speeds.kappa / time.dt,
-                  f.density * f.viscosity};
+                  f.density * f.viscosity,
+                  upwinding(equations.flux)};
   }
 
   template <bool Compressible, bool Limited>

@@ -24,6 +24,7 @@ struct FluxConstants {
   double c0;
   double kappa_over_dt;  // [1/s] 0: steady
   double mu;             // [Pa s]
+  double upwinding;      // [-] a of u_f
 };
 
 /// Third-order upwind-biased value on the near side of a face (F6), kappa = 1/3, from the far cell, the cell
@@ -69,6 +70,7 @@ void inviscid_row(const Block<D>& block, const double* p, const State<D>& q, std
   const double c0 = k.c0, rho0 = k.rho0, kappa_over_dt = k.kappa_over_dt, half_rho_c0 = 0.5 * k.rho0 * k.c0;
   const double half_over_rho = 0.5 / k.rho0;
   const double inverse_c2 = k.inverse_c2, p0 = k.p0;
+  const double half_upwinding = 0.5 * k.upwinding;
   // differences far below these are round-off, not structure
   const double small_u = 1e-12 * c0 * c0, small_p = small_u * rho0 * rho0 * c0 * c0;
 #pragma omp simd
@@ -103,9 +105,10 @@ void inviscid_row(const Block<D>& block, const double* p, const State<D>& q, std
     if constexpr (Compressible) rho += (p_mean + 0.5 * (p_r[i] + p_r[i - s]) - p0) * inverse_c2;
     const double m = rho * flow;
     f_m[i] = m;
-    f_0[i] = m * (m > 0.0 ? u0_l : u0_r) + p_face * a0;
-    f_1[i] = m * (m > 0.0 ? u1_l : u1_r) + p_face * a1;
-    if constexpr (D == 3) f_2[i] = m * (m > 0.0 ? u2_l : u2_r) + p_face * a2;
+    const double from_l = 0.5 * m + half_upwinding * std::abs(m), from_r = m - from_l;
+    f_0[i] = from_l * u0_l + from_r * u0_r + p_face * a0;
+    f_1[i] = from_l * u1_l + from_r * u1_r + p_face * a1;
+    if constexpr (D == 3) f_2[i] = from_l * u2_l + from_r * u2_r + p_face * a2;
   }
 }
 
