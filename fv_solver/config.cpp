@@ -172,7 +172,8 @@ void FaceConfig::bind(Binder& b) {
           "state: all given in two layers of ghosts; periodic; fringe: none, for faces whose cells the "
           "particles impose or blank; join: the faces of another block (or of this one) that lie at the same "
           "place, in any orientation; see join; overset: the cells beside the face take their values from "
-          "the grids below; convective: p and u are carried out with wave_speed, for wakes and vortices, and p "
+          "the grids below; convective: p and u are carried out with wave_speed, for wakes and vortices, and "
+          "p "
           "returns slowly to the given one.");
   b.key("name", name).doc("Of the wall or opening, for forces and messages; left out: block.face.");
   b.key("u", u).unit("m/s").doc("Velocity along x on the face.");

@@ -8,6 +8,7 @@ littoral_gtest(
           joins_test.cpp
           measures_test.cpp
           metrics_test.cpp
+          openings_test.cpp
           overset_test.cpp
           plot3d_test.cpp
           residual_test.cpp

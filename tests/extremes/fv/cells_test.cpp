@@ -1,0 +1,93 @@
+// Shapes of cells: thin, stretched, skewed, alone, dead.
+#include <gtest/gtest.h>
+
+#include "runs.hpp"
+
+namespace littoral::fv {
+namespace {
+
+/// Couette flow between plates one apart, in cells `aspect` times as long as high: u = z is the steady state.
+double couette_error(Block<2> block, int steps, const char* what, double value) {
+  close_with<2>(block, Condition::periodic);
+  set_face<2>(block, 1, 0, Condition::wall);
+  set_face<2>(block, 1, 1, Condition::wall, 1.0);
+  Equations<2> equations;
+  equations.fluid.viscosity = 0.1;
+  InnerTolerance tolerance = three_orders();
+  tolerance.drop = 1e-6;
+  Stepper<2> stepper({block}, equations, std::make_unique<MultigridSolver<2>>(), tolerance);
+  stepper.initialise([](const std::array<double, 2>&, double) { return PointState<2>{}; }, 0.0);
+  march(stepper, 100.0, steps, what, value);
+  double worst = 0.0;
+  for_each_index<2>({}, block.extent.n, [&](const std::array<int, 2>& index) {
+    const auto c = static_cast<std::size_t>(block.extent.at(index));
+    worst = std::max(worst, std::abs(stepper.state()[0].u[0][c] - block.centre[1][c]));
+  });
+  return worst;
+}
+
+TEST(ExtremeCellsTest, AspectRatioFromOneToAHundredThousand) {
+  for (const double aspect : {1.0, 1e2, 1e3, 1e4, 1e5}) {
+    const Block<2> block =
+        make_block<2>("thin", {8, 16}, {true, false}, [=](const std::array<int, 2>& index) {
+          return std::array<double, 2>{aspect / 16.0 * index[0], index[1] / 16.0};
+        });
+    EXPECT_LT(couette_error(block, 5, "aspect ratio", aspect), 1e-5) << aspect;
+  }
+}
+
+TEST(ExtremeCellsTest, EachCellHalfAsWideAgain) {
+  const Block<2> block = make_block<
+      2>("stretched", {8, 20}, {true, false}, [](const std::array<int, 2>& index) {
+    return std::array<double, 2>{index[0] / 8.0, (std::pow(1.5, index[1]) - 1.0) / (std::pow(1.5, 20) - 1.0)};
+  });
+  EXPECT_LT(couette_error(block, 5, "stretching", 1.5), 1e-5);
+}
+
+TEST(ExtremeCellsTest, SkewedByEightyDegrees) {
+  for (const double degrees : {45.0, 70.0, 80.0}) {
+    const double shear = std::tan(degrees * M_PI / 180.0);
+    const Block<2> block =
+        make_block<2>("skewed", {16, 16}, {true, false}, [=](const std::array<int, 2>& index) {
+          return std::array<double, 2>{index[0] / 16.0 + shear * index[1] / 16.0, index[1] / 16.0};
+        });
+    EXPECT_LT(couette_error(block, 8, "skew [degree]", degrees), 1e-4) << degrees;
+  }
+}
+
+TEST(ExtremeCellsTest, OneCellAlone) {
+  Block<3> single = make_block<3>("one", {1, 1, 1}, {false, false, false}, [](const std::array<int, 3>& i) {
+    return std::array<double, 3>{1.0 * i[0], 1.0 * i[1], 1.0 * i[2]};
+  });
+  close_with<3>(single, Condition::wall);
+  Equations<3> equations;
+  equations.fluid.viscosity = 0.1;
+  Stepper<3> stepper({single}, equations, std::make_unique<MultigridSolver<3>>(), three_orders());
+  stepper.initialise(
+      [](const std::array<double, 3>&, double) {
+        return PointState<3>{0.0, {1.0, 0.0, 0.0}};
+      },
+      0.0);
+  EXPECT_LT(march(stepper, 1.0, 5, "one cell between walls", 1).fastest, 0.1);  // friction stops it
+}
+
+TEST(ExtremeCellsTest, ABlockOfDeadCellsIsLeftAlone) {
+  Block<2> block = deformed_box<2>(8);
+  close_with<2>(block, Condition::wall);
+  for_each_index<2>({}, block.extent.n, [&](const std::array<int, 2>& index) {
+    block.status[static_cast<std::size_t>(block.extent.at(index))] = CellStatus::blanked;
+  });
+  set_solved_mask(block);
+  Stepper<2> stepper({block}, Equations<2>{}, std::make_unique<MultigridSolver<2>>(), three_orders());
+  stepper.initialise(
+      [](const std::array<double, 2>&, double) {
+        return PointState<2>{7.0, {1.0, 2.0}};
+      },
+      0.0);
+  const Outcome outcome = march(stepper, 0.1, 3, "dead block", 0);
+  EXPECT_EQ(outcome.cycles, 0);
+  EXPECT_TRUE(outcome.converged);
+}
+
+}  // namespace
+}  // namespace littoral::fv
