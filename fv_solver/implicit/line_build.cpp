@@ -163,6 +163,9 @@ void LineOperator<D, Real>::build_bundle(const LevelGrid<D>& grid, const State<D
     if (!grid.forcing.empty()) load<S>(grid.forcing.data() + shift, first, forcing);
     add_cell_jacobian<D>(volume, forcing, here, physics, line.diagonal);
     line.diagonal[0][0] *= 1.0 + anchor;
+    // a pressure on which nothing depends (a cell alone between walls, c infinite) stays as it is
+    const V one_p = 1.0 + V{};
+    line.diagonal[0][0] = line.diagonal[0][0] != 0.0 ? line.diagonal[0][0] : one_p;
     for (std::size_t l = 0; l < k_lanes; ++l) {
       if (grid.solved(first[l] + shift)) continue;
       SmallMatrix<D> one;
