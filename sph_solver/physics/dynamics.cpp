@@ -30,8 +30,11 @@ Dynamics<D>::Dynamics(const Numerics<D>& numerics, const DomainBox<D>& box, Othe
   for (double component : numerics.gravity) g += std::fabs(component);
   if (g > 0.0) terms_.push_back(std::make_unique<Gravity<D>>(numerics.gravity));
   if (numerics.body_force) terms_.push_back(std::make_unique<BodyForce<D>>(*numerics.body_force));
-  if (numerics.tension == Tension::switched)
-    terms_.push_back(std::make_unique<TensionSwitch<D>>(numerics.eos.p0));
+  if (numerics.tension == Tension::switched) {
+    auto term = std::make_unique<TensionSwitch<D>>(numerics.eos.p0);
+    tension_ = term.get();
+    terms_.push_back(std::move(term));
+  }
   if (numerics.viscosity > 0.0)
     terms_.push_back(std::make_unique<Viscosity<D>>(numerics.eos.rho0 * numerics.viscosity));
 }

@@ -68,7 +68,10 @@ class Dynamics {
   /// without a surface any constant is right, since only differences of pressure accelerate them, but
   /// discretely 2 V_i p sum_j V_j grad W_ij vanishes on regular arrangements only: the nearer to p, the
   /// smaller.
-  void set_pressure_level(double level) { pressure_level_ = level; }
+  void set_pressure_level(double level) {
+    pressure_level_ = level;
+    if (tension_ != nullptr) tension_->set_level(level);
+  }
 
   /// du/dt and dV/dt of the particles as they stand, at time t; copies refreshed. pre: prepare() since
   /// particles changed
@@ -109,9 +112,10 @@ class Dynamics {
   Shifting<D> shifting_;
   std::vector<std::unique_ptr<Term<D>>> terms_;
   std::unique_ptr<Walls<D>> walls_;
-  bool surface_current_ = false;    // flags belong to the positions as they stand
-  double pressure_level_;           // [Pa] taken off in the pair loops
-  double most_acceleration_ = 0.0;  // [m/s^2] of the last right-hand side, driven particles apart
+  TensionSwitch<D>* tension_ = nullptr;  // among terms_, if the scene asks for it
+  bool surface_current_ = false;         // flags belong to the positions as they stand
+  double pressure_level_;                // [Pa] taken off in the pair loops
+  double most_acceleration_ = 0.0;       // [m/s^2] of the last right-hand side, driven particles apart
 
   // Runge-Kutta: state at the start of the step and sum of weighted slopes (n_owned)
   std::array<std::vector<double>, D> x_start_, u_start_, x_sum_, u_sum_;

@@ -20,7 +20,7 @@ enum class WallStates : std::uint8_t { linear, constant };
 ///                    (Zhang, Hu & Adams 2017): sound is damped less than by (12), and so is everything else
 enum class RiemannSolver : std::uint8_t { linearised, low_dissipation };
 
-/// The pressure force where p is below p0: (11) as it stands, or switched (S12).
+/// The pressure force where p is below p0: (11) as it stands, or switched (S15).
 enum class Tension : std::uint8_t { plain, switched };
 
 /// Speed that multiplies the jump of velocity in p_E; closing: u_l - u_r. Value: a number or lanes of them.

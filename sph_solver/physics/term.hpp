@@ -61,7 +61,7 @@ class Viscosity : public Term<D> {
   double mu_;  // rho0 nu [Pa s]
 };
 
-/// Pressure force under tension (S12): (11) with p_j - p_i in place of p_i + p_j for a particle more than a
+/// Pressure force under tension (S15): (11) with p_j - p_i in place of p_i + p_j for a particle more than a
 /// kernel radius from the surface whose pressure is below p0 (Sun et al. 2018), that is
 ///   m_i du_i/dt += 2 V_i (p_i - p0) sum_j V_j grad W_ij
 /// Between particles that pull each other (11) makes clumps; this part of it, which is zero on an even
@@ -70,6 +70,8 @@ template <int D>
 class TensionSwitch : public Term<D> {
  public:
   explicit TensionSwitch(double reference_pressure) : p0_(reference_pressure) {}
+  /// What the pair loops take off, if it is not p0 (scenes without a surface) [Pa].
+  void set_level(double level) { p0_ = level; }
   void add(const Particles<D>& particles, const NeighborList<D>& neighbors, double t,
            Rate<D>& rate) const override;
 
