@@ -80,7 +80,11 @@ void Config::bind(support::Binder& b) {
     b.choice("integrator", integrator, k_integrators)
         .doc("rk4: classical, four slopes a step; midpoint: two slopes, of second order.");
     b.key("cfl", cfl).unit("-").exclusive_min(0).max(1).doc("Of R / c; auto: 0.375 (rk4), 0.27 (midpoint).");
-    b.key("viscous_cfl", viscous_cfl).unit("-").exclusive_min(0).max(1).doc("Of R^2 / nu.");
+    b.key("viscous_cfl", viscous_cfl)
+        .unit("-")
+        .exclusive_min(0)
+        .max(1)
+        .doc("Of R^2 / nu; auto: 0.035 (rk4), 0.025 (midpoint).");
     b.key("force_cfl", force_cfl).unit("-").exclusive_min(0).max(2).doc("Of sqrt(R / |du/dt|).");
   });
   b.section("neighbors", "Lists of neighbours.", [&] {
@@ -163,6 +167,9 @@ RunConfig read_config(const std::string& path, const std::vector<std::string>& s
     throw ConfigError(
         document.resolve(config.sph.scene) +
         ": fluid.sound_speed is infinite; particles need a finite one, 10 times the highest speed.");
+  if (config.sph.tension == Tension::switched && !config.scene.bodies.empty())
+    throw ConfigError(path +
+                      ": tension is switched, which does not know the walls of bodies. Use plain here.");
   if (config.sph.initial_distribution == Config::InitialDistribution::relaxed) {
     bool closed = !config.scene.has_free_surface();
     for (std::size_t d = 0; d < 3; ++d)
@@ -221,7 +228,7 @@ Numerics<D> numerics_of(const RunConfig& config) {
   numerics.precision = sph.precision;
   numerics.integrator = sph.integrator;
   numerics.cfl = sph.cfl.value_or(default_cfl(sph.integrator));
-  numerics.viscous_cfl = sph.viscous_cfl;
+  numerics.viscous_cfl = sph.viscous_cfl.value_or(default_viscous_cfl(sph.integrator));
   numerics.force_cfl = sph.force_cfl;
   return numerics;
 }

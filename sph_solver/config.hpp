@@ -41,8 +41,8 @@ struct Config {
   Precision precision = Precision::all_double;
   bool shifting = true;
   Integrator integrator = Integrator::rk4;
-  std::optional<double> cfl;  // absent: that of the integrator
-  double viscous_cfl = 0.12;
+  std::optional<double> cfl;          // absent: that of the integrator
+  std::optional<double> viscous_cfl;  // absent: that of the integrator
   double force_cfl = 0.25;
   double skin = 0.3;  // [dx]
   double load_drift = 1.1;

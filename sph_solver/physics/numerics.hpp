@@ -34,9 +34,9 @@ struct Numerics {
   bool shifting = true;
   double reference_velocity = 0.0;  // U of (14) [m/s]
   Integrator integrator = Integrator::rk4;
-  double cfl = 0.375;         // CFL_a of (16)
-  double viscous_cfl = 0.12;  // CFL_nu of (16)
-  double force_cfl = 0.25;    // on sqrt(R / |du/dt|)
+  double cfl = 0.375;                                         // CFL_a of (16)
+  double viscous_cfl = default_viscous_cfl(Integrator::rk4);  // CFL_nu of (16)
+  double force_cfl = 0.25;                                    // on sqrt(R / |du/dt|)
 };
 
 }  // namespace littoral::sph

@@ -14,7 +14,7 @@ constexpr double k_pi = 3.14159265358979323846;
 constexpr int k_n = 16;  // particles over the period
 
 struct Flow {
-  double sound_speed = 10.0, viscosity = 0.0, cfl = 0.375, viscous_cfl = 0.12;
+  double sound_speed = 10.0, viscosity = 0.0, cfl = 0.375, viscous_cfl = 0.035;
   RiemannSolver riemann = RiemannSolver::linearised;
 };
 
@@ -110,10 +110,16 @@ TEST(StepTest, CflAtAndPastItsLimit) {
     const double left = energy_left({10.0, 0.0, cfl}, 40.0, 0.1);
     EXPECT_TRUE(std::isnan(left) || left < 1.05) << "cfl " << cfl << ": energy times " << left;
   }
-  for (const double cfl : {0.3, 1.0}) {
-    const double left = energy_left({10.0, 50.0, 0.375, cfl}, 1.0, 0.1);
-    EXPECT_TRUE(std::isnan(left) || left < 1.05) << "viscous cfl " << cfl << ": energy times " << left;
-  }
+}
+
+/// Where viscosity limits the step noise dies out with the flow, at the default and just below the limit of
+/// stability; three times beyond, the paper's .12, it grows by orders of magnitude a step.
+TEST(StepTest, ViscousStepIsWithinItsLimit) {
+  const double fine = energy_left({10.0, 50.0, 0.375, 0.01}, 0.2, 0.1);
+  for (const double cfl : {0.035, 0.038})
+    EXPECT_NEAR(energy_left({10.0, 50.0, 0.375, cfl}, 0.2, 0.1) / fine, 1.0, 0.02);
+  const double beyond = energy_left({10.0, 50.0, 0.375, 0.12}, 0.2, 0.1);
+  EXPECT_TRUE(std::isnan(beyond) || beyond > 2.0 * fine) << beyond;
 }
 
 }  // namespace

@@ -190,7 +190,7 @@ TEST(DynamicsTest, StepLimitsAreThoseOfTheFormula) {
   EXPECT_DOUBLE_EQ((Dynamics<2>(setup, box<2>(16.0, Side::periodic)).stable_time_step()), 0.375 * 4.0 / 10.0);
   setup.viscosity = 100.0;
   EXPECT_DOUBLE_EQ((Dynamics<2>(setup, box<2>(16.0, Side::periodic)).stable_time_step()),
-                   0.12 * 16.0 / 100.0);
+                   0.035 * 16.0 / 100.0);
 }
 
 TEST(DynamicsTest, AnUnstableStepNamesTheParticle) {
