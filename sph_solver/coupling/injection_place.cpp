@@ -7,8 +7,23 @@ namespace littoral::sph {
 
 namespace {
 
-/// A place nearer than this to a particle is occupied [spacing].
+/// The place in front of the element's centre is taken without looking further if it has this much room
+/// [spacing]: the rows of a stream oblique to the face stand about so near to one another where they pass.
 constexpr double k_free = 0.75;
+
+/// Where else a particle may appear, nearest to the right place first. Depths from the face [spacing]: the
+/// water that the particle stands for is between 0 and 1 deep; deeper ones are for water that presses in
+/// while the first rows are full, as at an edge that it enters by both faces.
+constexpr double k_depths[] = {0.5, 0.75, 1.0, 0.25, 1.25, 1.5, 1.75, 2.0};
+/// Aside from the centre [element]: half an element either way still is the element's own water; a whole one
+/// is its neighbour's, which the next particle there makes up for.
+constexpr double k_offsets[] = {0.0, -0.5, 0.5, -1.0, 1.0};
+/// How many of them belong to the element itself, and how many there are if pressed.
+constexpr int k_own_depths = 5, k_own_offsets = 3, k_all_depths = 8, k_all_offsets = 5;
+
+/// Two places are equally good if their rooms differ by round-off only: the first one is taken, on any
+/// machine.
+constexpr double k_better = 1.0 + 1e-12;
 
 template <int D>
 bool in_water(const Point<D>& x, const Exterior& fv, double time, std::int64_t& hint) {
@@ -78,35 +93,30 @@ InjectionPlace<D> injection_place(const FaceElement<D>& element, double depth, d
   const auto consider = [&](const Point<D>& x) {
     if (!present.inside(x)) return;
     const double room = present.room(x);
-    if (room > best.room * (1.0 + 1e-12) && in_water<D>(x, fv, time, hint)) best = {x, room};
+    if (room > best.room * k_better && in_water<D>(x, fv, time, hint)) best = {x, room};
   };
   Point<D> centre = element.centre;
   centre[element.axis] += element.inward * std::clamp(depth, 0.0, spacing);
   consider(centre);
   if (best.room >= k_free * spacing) return best;
 
-  // First about the element: depths of a quarter to one and a quarter spacing, half an element to either
-  // side. Where that is full, as at an edge that water enters by both of its faces: further in, a whole
-  // element aside.
-  constexpr double depths[] = {0.5, 0.75, 1.0, 0.25, 1.25, 1.5, 1.75, 2.0};
-  constexpr double offsets[] = {0.0, -0.5, 0.5, -1.0, 1.0};
   const auto search = [&](int n_depths, int n_offsets) {
     const int sides = D == 2 ? n_offsets : n_offsets * n_offsets;
     for (int j = 0; j < n_depths; ++j)
       for (int k = 0; k < sides; ++k) {
         Point<D> x = element.centre;
-        x[element.axis] += element.inward * depths[j] * spacing;
+        x[element.axis] += element.inward * k_depths[j] * spacing;
         int rest = k;
         for (std::size_t d = 0; d < D; ++d) {
           if (d == element.axis) continue;
-          x[d] += 2.0 * offsets[rest % n_offsets] * element.half[d];
+          x[d] += 2.0 * k_offsets[rest % n_offsets] * element.half[d];
           rest /= n_offsets;
         }
         consider(x);
       }
   };
-  search(5, 3);
-  if (far) search(8, 5);
+  search(k_own_depths, k_own_offsets);
+  if (far) search(k_all_depths, k_all_offsets);
   return best;
 }
 

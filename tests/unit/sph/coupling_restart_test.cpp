@@ -53,6 +53,7 @@ TEST_F(RestartTest, GoesOnToTheBitWhileParticlesComeAndGo) {  // C20
   EXPECT_EQ(whole.particles.V, half.particles.V);
   EXPECT_EQ(whole.driver->hooks().exchange().pack(), half.driver->hooks().exchange().pack());
   EXPECT_EQ(whole.driver->ledger().n_injected, half.driver->ledger().n_injected);
+  EXPECT_EQ(whole.driver->hooks().exchange().pack_counts(), half.driver->hooks().exchange().pack_counts());
 }
 
 TEST_F(RestartTest, RefusesAnotherSceneAndNamesBoth) {

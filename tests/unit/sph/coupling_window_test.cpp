@@ -41,10 +41,24 @@ TEST(WindowDriverTest, StreamStaysUniformInLongIteratedWindows) {
   stream_stays_uniform<2>(8, coupler::Schedule::iterated, 5);
 }
 
+TEST(WindowDriverTest, AParticleFarOutsideIsTakenOutAndCounted) {
+  OpenBox<2> box(coupler::uniform_stream({0.8, 0.0, 0.6}, 0.0), coupler::Schedule::serial, 1);
+  box.run(2);
+  const auto before = box.driver->hooks().exchange().counts().removed_through[1];
+  std::size_t furthest = 0;
+  for (std::size_t i = 0; i < box.particles.n_owned; ++i)
+    if (box.particles.x[0][i] > box.particles.x[0][furthest]) furthest = i;
+  box.particles.x[0][furthest] += 1.9 * box.dx;  // through the outer face, as a wild shift or splash would
+  box.dynamics->forget_lists();
+  box.run(1);
+  EXPECT_GT(box.driver->hooks().exchange().counts().removed_through[1], before);
+  EXPECT_LT(std::fabs(box.driver->ledger().defect), 1e-14 * box.driver->ledger().mass_inside);
+}
+
 TEST(WindowDriverTest, StreamStaysUniformAtAnyPressure) {
   constexpr double level = 5.0;  // 10 rho U^2
   OpenBox<2> box(coupler::uniform_stream({0.8, 0.0, 0.6}, level), coupler::Schedule::serial, 1);
-  box.run(80);
+  box.run(40);
   ASSERT_GT(box.driver->ledger().n_injected, 0.0);
   for (std::size_t i = 0; i < box.particles.n_owned; ++i) {
     ASSERT_NEAR(box.particles.u[0][i], 0.8, 1e-12);
