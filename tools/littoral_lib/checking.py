@@ -81,6 +81,9 @@ def check(scene, bin_dir=None):
             said = [text for text in (errors or output).splitlines() if text.strip()]
             problems += [f"{program}: {text}" for text in said] or [f"{program}: --check ended with status {status}"]
             continue
+        counted = re.search(r"no problem found; (\d+) cells", output)  # of all blocks, however they are made
+        if counted:
+            configs[program, "cells"] = int(counted.group(1))
         status, output, errors = ask(program, scene, "--print-config", bin_dir)
         try:
             configs[program], configs[program, "scene"] = split_config(output)

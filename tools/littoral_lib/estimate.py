@@ -81,11 +81,7 @@ def predict(scene, configs):
                 dt = window / math.ceil(window / dt)
             lines.append(f"steps: about {end / dt:.0f} of {dt:.3g} s to t = {end:g} s"
                          + (f", in {end / window:.0f} windows" if len(scene.programs) > 1 else ""))
-    cells = 0
-    for block in find(configs.get("fv", {}), ("blocks",)) or []:
-        counts = block.get("cells") if isinstance(block, dict) else None
-        if counts:
-            cells += math.prod(int(evaluate(n, constants)) for n in counts)
+    cells = configs.get(("fv", "cells"), 0)
     if cells:
         memory += cells * CELL_BYTES
         lines.append(f"cells: {cells}")
