@@ -2,7 +2,7 @@
 
 from lib import wave
 
-PERIODS = 3
+PERIODS = 5
 
 
 def check(case):
