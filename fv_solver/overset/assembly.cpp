@@ -171,12 +171,6 @@ class Assembler {
     result.links = find_donors<D>(overlap_blocks(0), sources_, receivers, false, orphans);
     if (!orphans.empty()) complain(orphans);
     result.n_interpolated = static_cast<long>(receivers.size());
-    for (const auto& r : result.links.receivers) {
-      std::size_t used = 0;
-      for (const double w : r.weight) used += w != 0.0;
-      const bool inside = *std::min_element(r.weight.begin(), r.weight.end()) >= 0.0;
-      result.n_fitted += used < r.weight.size() && !inside;
-    }
   }
 
   [[noreturn]] void complain(const std::vector<CellName<D>>& orphans) const {

@@ -12,7 +12,6 @@ template <int D>
 struct OversetAssembly {
   OversetLinks<D> links;
   long n_interpolated = 0, n_blanked = 0;  // [cells]
-  long n_fitted = 0;                       // interpolated where not all cells around are solved
   std::vector<std::string> notes;          // for the log, a line a component
 };
 
