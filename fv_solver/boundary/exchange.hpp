@@ -4,6 +4,7 @@
 
 #include "boundary/irregular_faces.hpp"
 #include "boundary/links.hpp"
+#include "boundary/scalar_ghosts.hpp"
 #include "grid/block.hpp"
 #include "overset/closed_contour.hpp"
 #include "overset/donors.hpp"
@@ -25,6 +26,12 @@ class Exchange {
   /// windows (fill_ghosts), then behind joins, edges and corners included. Across a periodic pair pressures
   /// are those relative to the hydrostatic reference. pre windows evaluated    comm local
   void states(const std::vector<Block<D>>& blocks, std::vector<State<D>>& q) const;
+
+  /// The same for scalar fields, fields[number][block]: interpolated cells (rule level_set only), ghosts
+  /// behind windows by the rule, joins. All fields in one pass.    comm local
+  void scalars(const std::vector<Block<D>>& blocks, const std::vector<std::vector<Field*>>& fields,
+               ScalarGhosts rule) const;
+  void scalar(const std::vector<Block<D>>& blocks, std::vector<Field>& field, ScalarGhosts rule) const;
 
   /// Makes the friction through every joined face one and the same for both blocks. pre states()
   void share_fluxes(const std::vector<Block<D>>& blocks, const Fluid<D>& fluid,

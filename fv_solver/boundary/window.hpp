@@ -53,6 +53,8 @@ struct Window {
   std::array<int, D> upper{};          // one past the last cell
   std::array<Prescribed, D> velocity;  // [m/s] empty: 0
   Prescribed pressure;                 // [Pa] absolute; empty: the hydrostatic reference
+  Prescribed surface;                  // < 0 in water, 0 on the surface beyond inflow, far_field, state;
+                                       // empty: phi is extrapolated
   double wave_speed = 0.0;             // [m/s] far_field; 0: |u| of the given state, at least c0/10.
                                        // convective: of what leaves; 0: c0
   Join<D> join;                        // condition join only: the other side
@@ -62,6 +64,7 @@ struct Window {
   /// directions, per layer (0: at the face, or the first ghost layer for `state`; 1: second ghost layer).
   std::array<std::vector<double>, 2> given_p;                 // [Pa] relative to the hydrostatic reference
   std::array<std::array<std::vector<double>, D>, 2> given_u;  // [m/s]
+  std::array<std::vector<double>, 2> given_phi;               // [m] always in the ghosts' centres
 
   /// convective: what the first ghosts keep of the steps before, -(a1 q^n + a2 q^n-1), and a0, set by
   /// carry_windows; a0 = 0: no step yet, the ghosts stay as they are.

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "grid/block.hpp"
+
+namespace littoral::fv {
+
+/// How the ghosts of a scalar field are set behind windows.
+///   level_set  the signed distance phi: extrapolated linearly behind walls, slip, outflow, convective and
+///              overset faces (mirrored at a wall, it would force the surface upright there, and water at
+///              rest would move), mirrored behind symmetry, given behind inflow, far_field and state
+///              (`surface` of the window), left alone behind fringe
+///   cell_data  only what stands for a cell: periodic faces and joins; all other ghosts are left alone
+enum class ScalarGhosts : std::uint8_t { level_set, cell_data };
+
+/// Evaluates the windows' given phi at time t: F/|grad F| of the function given, so that any function with
+/// the right zero level serves. Call once a step, in scenes with a surface. Windows without a function
+/// extrapolate.
+template <int D>
+void evaluate_surface_windows(Block<D>& block, double t);
+
+/// Sets the ghosts of one block, edges and corners included, directions in turn; not those behind joins.
+/// comm local
+template <int D>
+void fill_scalar_ghosts(const Block<D>& block, ScalarGhosts rule, Field& field);
+
+}  // namespace littoral::fv

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "boundary/exchange.hpp"
+#include "grid/block.hpp"
+
+namespace littoral::fv {
+
+/// Cells near the surface, in layers: layer 0 has a neighbour across a face on the other side of phi = 0,
+/// layer k + 1 is beside layer k (diagonals included), on both sides, through joins and periodic faces. Found
+/// from the signs of phi, never from |phi|, so it is right whatever the gradient of phi is. Blanked cells
+/// belong to no layer; fringe and interpolated ones do.
+template <int D>
+class Band {
+ public:
+  static constexpr std::int8_t k_none = 127;
+
+  /// in phi with ghosts current; layers: how many (1: the cells at the surface alone)
+  /// comm exchange of one field a layer
+  void build(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange, const std::vector<Field>& phi,
+             int layers);
+
+  int layers() const { return layers_; }
+  /// Offsets of the cells of a block in layers [first, last), each layer in the order of the array.
+  struct Cells {
+    const std::ptrdiff_t* first;
+    const std::ptrdiff_t* last;
+    const std::ptrdiff_t* begin() const { return first; }
+    const std::ptrdiff_t* end() const { return last; }
+    std::size_t size() const { return static_cast<std::size_t>(last - first); }
+  };
+  Cells cells(std::size_t block, int first, int last) const {
+    const auto& start = start_[block];
+    const std::ptrdiff_t* base = cells_[block].data();
+    return {base + start[static_cast<std::size_t>(first)], base + start[static_cast<std::size_t>(last)]};
+  }
+  Cells cells(std::size_t block) const { return cells(block, 0, layers_); }
+  /// Layer of a cell, ghosts behind joins and periodic faces included; k_none outside the band and in other
+  /// ghosts.
+  int layer(std::size_t block, std::size_t cell) const { return static_cast<int>(layer_[block][cell]); }
+  bool empty() const;  ///< no cell of these blocks is in the band
+
+ private:
+  int layers_ = 0;
+  std::vector<Field> layer_;                        // [block][cell]
+  std::vector<std::vector<std::ptrdiff_t>> cells_;  // [block] sorted by layer
+  std::vector<std::vector<std::size_t>> start_;     // [block][layer], and one past the last
+};
+
+}  // namespace littoral::fv

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "level_set/band.hpp"
+#include "level_set/extend.hpp"
+#include "level_set/patches.hpp"
+#include "level_set/reinitialise.hpp"
+#include "level_set/transport.hpp"
+#include "level_set/volume.hpp"
+
+namespace littoral::fv {
+
+struct LevelSetOptions {
+  int layers = 7;            // of the band where phi is a distance, on each side
+  int extension_layers = 4;  // of air cells that hold a velocity
+  int sweeps = 3;            // of phi in one inner iteration
+};
+
+/// What a scene with a free surface holds beside p and u; nothing of it exists in other scenes. The functions
+/// in this folder say what is done with it; the order of a step is the stepper's:
+///   inner iteration  surface_velocity, transport        (phi goes with the flow, no lag)
+///   end of the step  reinitialise, extend_velocity of the levels still needed
+template <int D>
+struct LevelSet {
+  LevelSetOptions options;
+  std::vector<Field> phi;                        // [block] [m] < 0 in water; ghosts included
+  std::vector<VectorField<D>> surface_velocity;  // [block] [m/s] in the band
+  std::vector<SurfaceForcing> forcing;           // [block]
+  Band<D> band;
+  SurfacePatches<D> patches;
+
+  /// phi from a function that is negative in water and zero on the surface, at time t: the signed distance
+  /// in the band. windows' given phi evaluated (boundary/ghosts.hpp). throws ConfigError where it is not
+  /// finite
+  void initialise(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange, const Prescribed& surface,
+                  double t);
+};
+
+}  // namespace littoral::fv
