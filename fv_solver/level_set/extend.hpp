@@ -7,27 +7,40 @@
 
 namespace littoral::fv {
 
-/// Continues u linearly from water (phi < 0) into the first `layers` layers of air cells:
+/// Continues u linearly from water (phi < 0) into the first layers of air cells:
 ///   u_c = sum_b w_b (u_b + G_b (x_c - x_b)),  G_c = sum_b w_b G_b
-/// over the neighbours b (diagonals included) that are water or were reached before, w_b growing with how
-/// well x_c - x_b follows the surface's normal; G_b of water is a least-squares gradient of water cells.
-/// Linear u is exact on any grid. Air beyond is left alone.
-/// Cells that were water a step ago and are air now need no special care: they are continued as others.
-/// in/out u of all blocks (pass the velocity fields of one time level); ghosts are not filled: call
-/// Exchange::states. pre ghosts of u and phi current; band of phi with at least `layers` layers
-/// comm exchange of u, its gradient and a mark, once a layer
+/// over the neighbours b (diagonals included) that are water or were reached before, weighted with how near
+/// they are and how well x_c - x_b follows the surface's normal; G_b of water is the least-squares gradient
+/// of the water cells around. Linear u is exact on any grid. Air beyond keeps its values, water too.
 template <int D>
-void extend_velocity(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange, const Band<D>& band,
-                     const SurfacePatches<D>& patches, const std::vector<Field>& phi, int layers,
-                     const std::vector<VectorField<D>*>& u);
+class VelocityExtension {
+ public:
+  /// in/out u[block]: of one time level, its air cells set `layers` deep; in the ghosts only those that stand
+  /// for cells are: call Exchange::states
+  /// phi: tells water from air; may have moved on since the band and the patches, whose normals are used
+  /// pre ghosts of u and phi current; the band has more than `layers` layers
+  /// comm exchange of u, its gradient and a mark, once a layer
+  void extend(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange, const Band<D>& band,
+              const SurfacePatches<D>& patches, const std::vector<Field>& phi, int layers,
+              const std::vector<VectorField<D>*>& u);
 
-/// u_s: the velocity of each band cell's closest surface point, [block] ghosts behind joins and periodic
-/// faces included. Layer 0 interpolates u (quadratic in the grid's directions, water and continued air) at
-/// its foot; layers beyond carry that along the normal (first-order, layer by layer). pre u is continued into
-/// two layers of air at least, ghosts current; comm exchange of u_s once a layer
+ private:
+  void gradients_of_water(const std::vector<Block<D>>& blocks, const Band<D>& band,
+                          const std::vector<VectorField<D>*>& u);
+
+  using Gradient = std::array<VectorField<D>, D>;  // [component][derivative] [1/s]
+  std::vector<Gradient> gradient_;                 // [block]
+  std::vector<Field> reached_;                     // [block] pass in which a cell got its value; 0: water
+};
+
+/// u_s [m/s]: the velocity of the closest surface point, for the cells of a band and ghosts that stand for
+/// them. Layer 0 interpolates u (quadratic along the grid's directions, in water and continued air) at its
+/// foot on the surface of phi; the layers beyond carry that along the normal. phi may have moved on since the
+/// band and the patches pre u is continued into two layers of air at least, ghosts of u and phi current comm
+/// exchange of u_s once a layer
 template <int D>
 void surface_velocity(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange, const Band<D>& band,
-                      const SurfacePatches<D>& patches, const std::vector<const VectorField<D>*>& u,
-                      std::vector<VectorField<D>>& u_s);
+                      const SurfacePatches<D>& patches, const std::vector<Field>& phi,
+                      const std::vector<const VectorField<D>*>& u, std::vector<VectorField<D>>& u_s);
 
 }  // namespace littoral::fv

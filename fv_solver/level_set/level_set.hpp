@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "boundary/window.hpp"
 #include "level_set/band.hpp"
 #include "level_set/extend.hpp"
 #include "level_set/patches.hpp"
@@ -12,15 +13,15 @@
 namespace littoral::fv {
 
 struct LevelSetOptions {
-  int layers = 7;            // of the band where phi is a distance, on each side
+  int layers = 8;            // of the band in which phi is a distance, on each side
   int extension_layers = 4;  // of air cells that hold a velocity
-  int sweeps = 3;            // of phi in one inner iteration
+  int sweeps = 3;            // of the transport of phi in one inner iteration
 };
 
 /// What a scene with a free surface holds beside p and u; nothing of it exists in other scenes. The functions
-/// in this folder say what is done with it; the order of a step is the stepper's:
-///   inner iteration  surface_velocity, transport        (phi goes with the flow, no lag)
-///   end of the step  reinitialise, extend_velocity of the levels still needed
+/// of this folder say what is done with it; the order of a step is the stepper's:
+///   inner iteration  extend velocity, surface_velocity, transport       (phi goes with the flow, no lag)
+///   end of the step  reinitialise, extend the levels that the next step reads
 template <int D>
 struct LevelSet {
   LevelSetOptions options;
@@ -29,10 +30,10 @@ struct LevelSet {
   std::vector<SurfaceForcing> forcing;           // [block]
   Band<D> band;
   SurfacePatches<D> patches;
+  VelocityExtension<D> extension;
 
-  /// phi from a function that is negative in water and zero on the surface, at time t: the signed distance
-  /// in the band. windows' given phi evaluated (boundary/ghosts.hpp). throws ConfigError where it is not
-  /// finite
+  /// phi from a function that is negative in water and zero on the surface, at time t: the signed distance in
+  /// the band. pre evaluate_surface_windows. throws ConfigError naming the place where it is not finite
   void initialise(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange, const Prescribed& surface,
                   double t);
 };

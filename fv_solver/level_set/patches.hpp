@@ -3,51 +3,64 @@
 #include <array>
 #include <vector>
 
+#include "grid/small_matrix.hpp"
 #include "level_set/band.hpp"
 
 namespace littoral::fv {
 
-/// A piece of the surface: the osculating quadric at a base point y,
-///   x = y + s + n (-1/2 s.S s),  s tangential,
-/// seen from the cell that holds it.
+/// A piece of the surface seen from a cell: the osculating quadric at a base point y,
+///   x = y + s - n (s.S s)/2,  s tangential.
 template <int D>
 struct SurfacePatch {
-  std::array<double, D> to_base{};           // [m] y - centre of the cell
-  std::array<double, D> normal{};            // [-] n, out of the water
-  std::array<std::array<double, D>, D> S{};  // [1/m] curvature: n changes by S s along s
+  SpaceVector<D> to_base{};  // [m] y - centre of the cell
+  SpaceVector<D> normal{};   // [-] n at y, out of the water
+  SpaceMatrix<D> S{};        // [1/m] curvature: n changes by S s along s
 };
 
-/// Foot of a point on a patch.
+/// Foot of a cell's centre on a patch.
 template <int D>
 struct Foot {
-  double distance = 0.0;           // [m] signed: < 0 on the water's side
-  std::array<double, D> to{};      // [m] foot - point
-  std::array<double, D> normal{};  // [-] there
+  double distance = 0.0;    // [m] signed: < 0 on the water's side
+  SpaceVector<D> to{};      // [m] foot - centre
+  SpaceVector<D> normal{};  // [-] n there
 };
 
-/// Closest point of the patch to the cell's centre moved by `shift`. Two Newton steps: error of third order
-/// in the distance between foot and base. pure
+/// Closest point of the patch within `reach` [m] of its base, along the surface: an error of third order in
+/// that distance. pure
 template <int D>
-Foot<D> closest_point(const SurfacePatch<D>& patch, const std::array<double, D>& shift = {});
+Foot<D> closest_point(const SurfacePatch<D>& patch, double reach);
 
-/// For each cell of a band the patch of the surface nearest to it. Cells of layer 0 build theirs from the
-/// second-order Taylor polynomial of phi around them; the others take, layer by layer, the neighbour's patch
-/// whose foot is closest. Cells whose phi comes from elsewhere (interpolated, fringe) build one from phi
-/// themselves, whatever their layer.
+/// The patch that a cell at the surface sees in phi itself: of the second-order Taylor polynomial around it,
+/// or around the next inner cell beside a wall, whose ghosts are only linear; where a film is thinner than
+/// that sees, the nearest crossing on a grid line. false: none within two diagonals of the cell. pre ghosts
+/// of phi current
+template <int D>
+bool own_patch(const Block<D>& block, const Band<D>& band, const Field& phi, std::size_t b, std::ptrdiff_t c,
+               SurfacePatch<D>& patch);
+
+/// For each cell of a band the patch of the surface nearest to it. Cells of layer 0 have their
+/// own; the others take, layer by layer, of their neighbours' patches the one with the nearest base. Cells
+/// whose phi comes from elsewhere (interpolated, fringe) also look at the one that phi and its gradient give.
 template <int D>
 class SurfacePatches {
  public:
   /// pre phi has its ghosts; comm exchange of a patch's numbers, once a layer
   void build(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange, const Band<D>& band,
              const std::vector<Field>& phi);
-  /// Patch of a cell of the band; ghosts behind joins and periodic faces included. has: false outside
-  bool has(std::size_t block, std::size_t cell) const { return known_[block][cell] != 0.0; }
-  SurfacePatch<D> at(std::size_t block, std::size_t cell) const;
+  /// Whether a cell has one: every cell of the band that is connected with layer 0; also ghosts that stand
+  /// for cells.
+  bool has(std::size_t block, std::ptrdiff_t cell) const {
+    return known_[block][static_cast<std::size_t>(cell)] != 0.0;
+  }
+  SurfacePatch<D> at(std::size_t block, std::ptrdiff_t cell) const;
+  /// Of a cell: its foot on its patch, as far along the surface as the cell is wide.
+  Foot<D> foot(const Block<D>& block, std::size_t b, std::ptrdiff_t cell) const;
 
  private:
   static constexpr std::size_t k_curvatures = D * (D + 1) / 2;
   static constexpr std::size_t k_numbers = 2 * D + k_curvatures;
-  void put(std::size_t block, std::size_t cell, const SurfacePatch<D>& patch);
+  void put(std::size_t block, std::ptrdiff_t cell, const SurfacePatch<D>& patch);
+  void exchange_all(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange);
 
   std::vector<std::array<Field, k_numbers>> numbers_;  // [block][number][cell]
   std::vector<Field> known_;                           // [block] 1 where a cell has a patch

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "level_set/band.hpp"
+#include "level_set/patches.hpp"
 #include "physics/time_scheme.hpp"
 
 namespace littoral::fv {
@@ -16,39 +17,39 @@ struct SurfaceForcing {
 
 /// The equation of phi (7), (23) in one step, for the solved cells of a band:
 ///   R = a0 phi + a1 phi^n + a2 phi^n-1 + u_s . grad phi + rate (phi - phi*)   [m/s]
-/// u_s: the velocity of the closest surface point (extend.hpp), on both sides. Third-order upwind differences
-/// along the grid lines, turned into space by those of the centres, so linear phi is exact on any grid.
+/// with u_s the velocity of the closest surface point (extend.hpp), on both sides. grad phi by third-order
+/// upwind differences along the grid lines, turned into space by those of the centres, so that linear phi is
+/// exact on any grid; in the outermost two layers, whose differences would reach beyond the band, by the
+/// normal of the nearest patch. Band and patches stay those of phi^n.
 template <int D>
 struct SurfaceStep {
   BackwardDifference time;
-  const std::vector<Field>* phi_n = nullptr;             // [m] phi^n
-  const std::vector<Field>* phi_nm1 = nullptr;           // [m] phi^n-1; not read where a2 = 0
-  const std::vector<SurfaceForcing>* forcing = nullptr;  // one a block; null: none
+  const std::vector<Field>& phi_n;             // [m] [block]
+  const std::vector<Field>& phi_nm1;           // [m] not read where a2 = 0
+  const std::vector<SurfaceForcing>& forcing;  // [block], or empty
+  const Band<D>& band;
+  const SurfacePatches<D>& patches;
 };
 
-/// out r [m/s] in the band's solved cells (others untouched), resized if needed
-/// pre ghosts of phi current; comm local
+/// Contravariant velocity at a cell's centre: cells a second along each direction of the grid.
 template <int D>
-void transport_residual(const std::vector<Block<D>>& blocks, const Band<D>& band, const SurfaceStep<D>& step,
-                        const std::vector<Field>& phi, const std::vector<VectorField<D>>& surface_velocity,
+std::array<double, D> index_velocity(const Block<D>& block, const VectorField<D>& u, std::ptrdiff_t c);
+
+/// out r [m/s] (resized, 0 in other cells); pre ghosts of phi current; comm local
+template <int D>
+void transport_residual(const std::vector<Block<D>>& blocks, const SurfaceStep<D>& step,
+                        const std::vector<VectorField<D>>& surface_velocity, const std::vector<Field>& phi,
                         std::vector<Field>& r);
 
-struct TransportReport {
-  int sweeps = 0;
-  double first = 0.0, last = 0.0;  // [m/s] largest residual before and after
-};
-
-/// Point-implicit sweeps phi -= R / (a0 + rate + 3/2 sum |U_d|), U_d the contravariant velocity in cells a
-/// second, until the largest residual is below `tolerance` [m/s] or for `max_sweeps`. The order of cells does
-/// not matter. Converges for any surface CFL (by .26 a sweep at .3, .57 at 1, .94 at 5).
-/// in/out phi, ghosts current on return; comm exchange of phi once a sweep, and a maximum
+/// Point-implicit sweeps phi -= R / (a0 + rate + 3/2 sum |U_d|), U the index velocity. All cells are updated
+/// at once, so their order does not matter. A sweep leaves .26 of the error at a surface CFL of .3, .57 at 1,
+/// .94 at 5. in/out phi, ghosts current before and after; comm exchange of phi once a sweep returns the
+/// largest residual before the last sweep [m/s], of these blocks
 template <int D>
-TransportReport transport(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange,
-                          const Band<D>& band, const SurfaceStep<D>& step,
-                          const std::vector<VectorField<D>>& surface_velocity, int max_sweeps,
-                          double tolerance, std::vector<Field>& phi);
+double transport(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange, const SurfaceStep<D>& step,
+                 const std::vector<VectorField<D>>& surface_velocity, int sweeps, std::vector<Field>& phi);
 
-/// Largest sum_d |U_d| of the cells of layers 0 and 1 [1/s]: times dt it is the surface's Courant number.
+/// Largest sum_d |U_d| in layers 0 and 1 [1/s], of these blocks: times dt it is the surface's CFL.
 template <int D>
 double surface_rate(const std::vector<Block<D>>& blocks, const Band<D>& band,
                     const std::vector<VectorField<D>>& surface_velocity);

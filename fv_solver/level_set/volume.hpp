@@ -1,29 +1,25 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
-#include "level_set/band.hpp"
+#include "grid/block.hpp"
 
 namespace littoral::fv {
 
-/// Share of each cell's volume that is water, in [0, 1]: cut by the plane that phi and its gradient give at
-/// the cell's centre. 1 and 0 away from the surface. pure
-/// value, gradient: of phi at the centre [m], [-]; edges: half the cell's edge vectors [m]
+/// Share of a parallelepiped that lies where value + slope . xi < 0, xi in [-1, 1]^D: exact, in [0, 1].
+/// slope: change of the function from the centre to each face (Scardovelli & Zaleski 2000). pure
 template <int D>
-double wet_share(double value, const std::array<double, D>& gradient,
-                 const std::array<std::array<double, D>, D>& half_edges);
+double wet_share(double value, std::array<double, D> slope);
 
-/// Of all cells of a block, ghosts 0. pre ghosts of phi current
+/// Share of water in each cell of a block, cut by the plane of phi and its central differences; ghosts and
+/// blanked cells 0. pre ghosts of phi current
 template <int D>
 void wet_shares(const Block<D>& block, const Field& phi, Field& share);
 
-/// Volume of the water in solved cells (statuses computed and forced) [m^D]; cells that two overlapping
-/// blocks both solve count twice, as do other integrals.
+/// Volume of the water in the solved cells (computed, forced) of these blocks [m^D]; where two overlapping
+/// blocks both solve, it counts twice, as other integrals do.
 template <int D>
 double water_volume(const std::vector<Block<D>>& blocks, const std::vector<Field>& phi);
-
-/// Area of the surface in those cells [m^(D-1)].
-template <int D>
-double surface_area(const std::vector<Block<D>>& blocks, const std::vector<Field>& phi);
 
 }  // namespace littoral::fv
