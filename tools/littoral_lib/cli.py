@@ -67,12 +67,12 @@ def build_parser():
                            "cells, memory and steps. Lists all problems; exit status 0 only if there is none.")
     add_scene_options(check)
 
-    plot = sub.add_parser("plot", help="draw the standard pictures of a run",
+    plot = sub.add_parser("plot", help="draw the standard picture of a run",
                           description="Draw energy and elevation (against the exact solution where the scene names "
-                          "one), the field at one moment, and profiles across the interface.")
+                          "one), the field at one moment, and profiles across the interface, in one picture.")
     plot.add_argument("dir", metavar="DIR", help="folder a run wrote")
     plot.add_argument("--time", type=float, help="moment of the field picture [s] (default: the most lively one)")
-    plot.add_argument("--out", help="folder of the pictures (default: DIR/plots)")
+    plot.add_argument("--out", help="folder of the picture (default: DIR/plots)")
 
     surface = sub.add_parser("surface", help="the free surface as triangles or lines",
                              description="Find the free surface of a run's particles, where sum V W = 1/2, and write "

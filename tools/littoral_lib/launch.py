@@ -113,11 +113,12 @@ def killed(lines, ranks):
 
 
 def own_words(lines):
-    """The programs' own lines: without blank ones and mpirun's boxes between rows of dashes."""
+    """The programs' own lines: without blank ones, mpirun's boxes between rows of dashes, and what the parts of
+    Open MPI say of themselves ("[node:pid] ...")."""
     kept, in_box = [], False
     for text in lines:
         if re.fullmatch(r"-{20,}", text.strip()):
             in_box = not in_box
-        elif not in_box and text.strip():
+        elif not in_box and text.strip() and not re.match(r"\[[^\]\s]+:\d+\]", text):
             kept.append(text)
     return kept

@@ -1,4 +1,4 @@
-"""littoral plot: the standard pictures of a run."""
+"""littoral plot: the standard picture of a run."""
 
 import pathlib
 
@@ -161,24 +161,25 @@ def dot_size(x, axes):
 
 def overview(picture, time, path):
     plt = pyplot()
-    figure = plt.figure(figsize=(10, 7.6))
-    grid = figure.add_gridspec(2, 2, height_ratios=[1, 1.55], hspace=0.28, wspace=0.2)
+    rows = 3 if picture.moments else 1
+    figure = plt.figure(figsize=(10, 12 if picture.moments else 3.5))
+    grid = figure.add_gridspec(rows, 6, height_ratios=[1, 1.55, 1.2][:rows], hspace=0.24, wspace=0.9)
     if picture.wave:
-        picture.elevation(figure.add_subplot(grid[0, 0]))
-        picture.energy(figure.add_subplot(grid[0, 1]))
+        picture.elevation(figure.add_subplot(grid[0, :3]))
+        picture.energy(figure.add_subplot(grid[0, 3:]))
     else:
         picture.history(figure.add_subplot(grid[0, :]))
     if picture.moments:
         picture.field(figure.add_subplot(grid[1, :]), time, figure)
-    figure.suptitle(picture.summary.get("title", ""), fontsize=10, y=0.94)
+        first = figure.add_subplot(grid[2, :2])
+        profiles(picture, time, [first] + [figure.add_subplot(grid[2, k:k + 2], sharey=first) for k in (2, 4)])
+    figure.suptitle(picture.summary.get("title", ""), fontsize=10, y=0.92 if picture.moments else 1.0)
     figure.savefig(path)
     plt.close(figure)
 
 
-def profiles(picture, time, path):
+def profiles(picture, time, axes):
     """p and u on a vertical line through the interface: any kink shows here."""
-    plt = pyplot()
-    figure, axes = plt.subplots(1, 3, figsize=(10, 4), sharey=True)
     part = picture.moments.at(time)
     x = np.concatenate([p.x[:, 0] for p in part.values()])
     left, right = x.min(), x.max()
@@ -187,9 +188,6 @@ def profiles(picture, time, path):
     picture.profile(axes[1], time, lambda p: p.u[:, 2], antinode, f"w [m/s] at x = {antinode:.3g} m")
     picture.profile(axes[2], time, lambda p: p.u[:, 0], quarter, f"u [m/s] at x = {quarter:.3g} m")
     axes[0].legend(loc="best")
-    figure.suptitle(f"{picture.summary.get('title', '')}, t = {time:.3g} s", fontsize=10)
-    figure.savefig(path)
-    plt.close(figure)
 
 
 def command(args):
@@ -199,14 +197,8 @@ def command(args):
     time = args.time
     if picture.moments and time is None:
         time = picture.moment()
-    pictures = []
-    if picture.moments:
-        profiles(picture, time, folder / "profiles.png")
-        pictures.append(folder / "profiles.png")
     overview(picture, time, folder / "overview.png")
-    pictures.append(folder / "overview.png")
     if picture.wave:
         print(compare.table(picture.wave.measures()))
-    for path in pictures:
-        print(path)
+    print(folder / "overview.png")
     return 0

@@ -11,9 +11,9 @@ BUILDS = ("release", "portable", "debug")
 
 
 def find(name, bin_dir=None):
-    """Path of a built program: --bin, LITTORAL_BIN, the build folders, then PATH."""
+    """Path of a program: --bin, LITTORAL_BIN, the build folders or where it was installed, then PATH."""
     named = bin_dir or os.environ.get("LITTORAL_BIN")
-    folders = [pathlib.Path(named)] if named else [ROOT / "build" / build / "bin" for build in BUILDS]
+    folders = [pathlib.Path(named)] if named else own_folders(ROOT)
     for folder in folders:
         if os.access(folder / name, os.X_OK):
             return str((folder / name).absolute())
@@ -23,6 +23,13 @@ def find(name, bin_dir=None):
     raise UserError(f"{name} not found in {', '.join(map(str, folders))}"
                     f"{'' if named else ' or on PATH'}. Build it: cmake --preset release && "
                     f"cmake --build build/release")
+
+
+def own_folders(root):
+    """Of a clone its build folders; of an installation (PREFIX/share/littoral) PREFIX/bin."""
+    if (root / "CMakeLists.txt").is_file():
+        return [root / "build" / build / "bin" for build in BUILDS]
+    return [root.parents[1] / "bin"]
 
 
 def environment(threads):

@@ -106,13 +106,11 @@ def log_tail(out, program, lines=TAIL):
 
 
 def report_failure(out, summary, stream=sys.stderr):
-    """Why a job ended: its own last words, then the end of each program's log."""
+    """Why a job ended: the end of each program's log, then the job's own last words."""
     reasons = {130: "interrupted", 124: "ran past its time limit"}
     status = summary["status"]
     print(f"littoral: the job failed ({reasons.get(status, f'exit status {status}')}) after "
           f"{summary['wall_seconds']:.1f} s. Everything it printed: {out}/console.log", file=stream)
-    for text in summary["killed"]:
-        print(f"littoral: {text}", file=stream)
     for program in summary["programs"]:
         tail = log_tail(out, program)
         print(f"--- last lines of {program}'s log" + ("" if tail else ": it wrote none"), file=stream)
@@ -121,6 +119,8 @@ def report_failure(out, summary, stream=sys.stderr):
     print("--- last lines on the screen", file=stream)
     for text in launch.own_words(summary["lines"])[-TAIL:]:
         print(f"    {text}", file=stream)
+    for text in summary["killed"]:  # who was killed has no last words
+        print(f"littoral: {text}", file=stream)
 
 
 def command(args):

@@ -10,7 +10,7 @@ import types
 import unittest
 
 import tools_path  # noqa: F401
-from littoral_lib import launch, run
+from littoral_lib import launch, programs, run
 from littoral_lib.errors import UserError
 
 
@@ -54,7 +54,7 @@ class Jobs(unittest.TestCase):
         for program, windows in (("sph", (10, 20, 30)), ("fv", (10, 20))):
             (self.folder / program).mkdir()
             for window in windows:
-                (self.folder / program / f"checkpoint_{window:06d}.h5").touch()
+                (self.folder / program / f"checkpoint_{window:08d}.h5").touch()
         scene = self.scene(["sph", "fv"])
         self.assertIn("20", run.restart_files(scene, self.folder, "latest")["sph"].name)
         self.assertIn("10", run.restart_files(scene, self.folder, "10")["fv"].name)
@@ -96,6 +96,17 @@ class Jobs(unittest.TestCase):
     def test_own_words_leave_out_the_boxes_of_mpirun(self):
         box = ["-" * 40, "mpirun detected that a process exited", "-" * 40]
         self.assertEqual(launch.own_words(["fv: error: no", *box, ""]), ["fv: error: no"])
+
+    def test_own_words_leave_out_what_open_mpi_says_of_itself(self):
+        noise = ["[node-7:1234] 1 more process has sent help message help-mpi-api.txt / mpi-abort",
+                 "[node-7:1234] Set MCA parameter \"orte_base_help_aggregate\" to 0 to see all help / error messages",
+                 "[node-7:01234] PMIX ERROR: UNREACHABLE in file server/pmix_server.c at line 2795"]
+        self.assertEqual(launch.own_words(["sph_solver rank 0: no", *noise]), ["sph_solver rank 0: no"])
+        self.assertEqual(launch.own_words(["[0.1, 0.2] is no box"]), ["[0.1, 0.2] is no box"])
+
+    def test_an_installation_finds_its_own_programs(self):
+        prefix = self.folder / "prefix"
+        self.assertEqual(programs.own_folders(prefix / "share" / "littoral"), [prefix / "bin"])
 
 
 if __name__ == "__main__":
