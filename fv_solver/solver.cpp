@@ -106,7 +106,7 @@ void Solver<D>::step(const coupler::Agreement& agreement, Companion<D>& companio
   const auto timing = timers_.scope(write_);
   output_->after(agreement, stepper_, outcome, companion.waited());
   if (agreement.checkpoint) {
-    write_checkpoint<D>(output_->checkpoint_path(window_), stepper_, window_, scene_,
+    write_checkpoint<D>(support::checkpoint_path(output_->folder(), window_), stepper_, window_, scene_,
                         [&](support::CheckpointWriter& file) {
                           companion.save(file);
                           file.put("output/last_fields", output_->last_fields());

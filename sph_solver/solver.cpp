@@ -8,6 +8,7 @@
 
 #include "littoral/coupler/job.hpp"
 #include "littoral/error.hpp"
+#include "littoral/support/checkpoint.hpp"
 #include "littoral/support/due.hpp"
 #include "littoral/support/summary.hpp"
 #include "littoral/support/timers.hpp"
@@ -255,7 +256,7 @@ void Solver<D>::write_checkpoint() {
   particles_.drop_ghosts();
   if (driver_) driver_->forget_hints(particles_);
   const ParticleExchange<D>* exchange = driver_ ? &driver_->hooks().exchange() : nullptr;
-  const std::string path = checkpoint_path(folder_, window_);
+  const std::string path = support::checkpoint_path(folder_, window_);
   if (!ranks_) {
     sph::write_checkpoint(path, run, particles_, exchange);
     return;

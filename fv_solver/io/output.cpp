@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 
 #include "io/checkpoint.hpp"
@@ -141,13 +140,6 @@ void Output<D>::last(const Stepper<D>& stepper) {
 template <int D>
 bool Output<D>::fields_due(double time) const {
   return fields_ && support::due(fields_written_at_, time, scene_.time.field_interval);
-}
-
-template <int D>
-std::string Output<D>::checkpoint_path(std::int64_t window) const {
-  char name[48];
-  std::snprintf(name, sizeof name, "/checkpoint_%08lld.h5", static_cast<long long>(window));
-  return folder_ + name;
 }
 
 template Integrals integrate_all<2>(const Stepper<2>&, const std::vector<coupler::Box>&);

@@ -39,7 +39,7 @@ class Output {
   void set_last_fields(double time) { fields_written_at_ = time; }
 
   const Integrals& integrals() const { return integrals_; }
-  std::string checkpoint_path(std::int64_t window) const;
+  const std::string& folder() const { return folder_; }
 
  private:
   void row(const Stepper<D>& stepper, const StepReport& report, double waited);

@@ -1,6 +1,5 @@
 #include "io/checkpoint.hpp"
 
-#include <cstdio>
 #include <type_traits>
 #include <vector>
 
@@ -162,12 +161,6 @@ RunState read_checkpoint(const std::string& path, const support::Scene& scene, P
   particles.for_each_owned_column(Reader{file, path, n, first, last, "owned"});
   if (exchange != nullptr) exchange->unpack(file.doubles("exchange_masses"), file.int64s("exchange_counts"));
   return run;
-}
-
-std::string checkpoint_path(const std::string& folder, std::int64_t window) {
-  char name[40];
-  std::snprintf(name, sizeof name, "/checkpoint_%06lld.h5", static_cast<long long>(window));
-  return folder + name;
 }
 
 template void write_checkpoint<2>(const std::string&, const RunState&, const Particles<2>&,

@@ -48,7 +48,4 @@ template <int D>
 RunState read_checkpoint(const std::string& path, const support::Scene& scene, Particles<D>& particles,
                          ParticleExchange<D>* exchange, const CheckpointShare& share = {});
 
-/// OUT/sph/checkpoint_000120.h5
-std::string checkpoint_path(const std::string& folder, std::int64_t window);
-
 }  // namespace littoral::sph

@@ -1,5 +1,7 @@
 #include "littoral/support/checkpoint.hpp"
 
+#include <array>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 
@@ -8,6 +10,12 @@
 #include "output_file.hpp"
 
 namespace littoral::support {
+
+std::string checkpoint_path(const std::string& folder, std::int64_t window) {
+  std::array<char, 40> name;
+  std::snprintf(name.data(), name.size(), "/checkpoint_%08lld.h5", static_cast<long long>(window));
+  return folder + name.data();
+}
 
 struct CheckpointWriter::Impl {
   explicit Impl(const std::string& path) : file(path), image(path) {}

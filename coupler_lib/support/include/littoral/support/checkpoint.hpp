@@ -7,6 +7,9 @@
 
 namespace littoral::support {
 
+/// FOLDER/checkpoint_00000120.h5: the same name from both programs, so that those of one window are found.
+std::string checkpoint_path(const std::string& folder, std::int64_t window);
+
 /// HDF5 file of named arrays and scalars, exact to the bit. Written to a temporary name and renamed on close,
 /// so that a crash or a full disk never leaves a half checkpoint under the final name. throws IoError with
 /// path, dataset and reason (missing, wrong type, wrong size, disk full)
