@@ -54,10 +54,40 @@ void put(TapeWriter& tape, CallKind kind, const Window& window, std::size_t coun
   tape.put(Call{kind, window, static_cast<std::int64_t>(count)});
 }
 
-class RecordingFv final : public FvPartner {
+/// What both sides answer alike.
+template <class Partner>
+class Recording : public Partner {
+ public:
+  Agreement agree(const Proposal& mine) override {
+    const Agreement agreement = real_->agree(mine);
+    put(tape_, agreement);
+    return agreement;
+  }
+  Ledger exchange(const Window& window, const Ledger& mine) override {
+    const Ledger ledger = real_->exchange(window, mine);
+    put(tape_, window, ledger);
+    return ledger;
+  }
+  void goodbye(const std::string& reason) override {
+    real_->goodbye(reason);
+    put(tape_, CallKind::goodbye, {}, reason);
+    tape_.commit();
+  }
+  double waited() const override { return real_->waited(); }
+  std::string description() const override { return real_->description() + ", recorded"; }
+
+ protected:
+  Recording(std::unique_ptr<Partner> real, const std::string& path, Role speaker, const std::string& scene)
+      : real_(std::move(real)), tape_(path, speaker, real_->description(), scene) {}
+
+  std::unique_ptr<Partner> real_;
+  TapeWriter tape_;
+};
+
+class RecordingFv final : public Recording<FvPartner> {
  public:
   RecordingFv(std::unique_ptr<FvPartner> real, const std::string& path, const std::string& scene)
-      : real_(std::move(real)), tape_(path, Role::fv, real_->description(), scene) {}
+      : Recording(std::move(real), path, Role::fv, scene) {}
 
   void announce(const Box& needs, const Box& covers) override {
     real_->announce(needs, covers);
@@ -66,11 +96,6 @@ class RecordingFv final : public FvPartner {
   }
   const DonorGeometry& donor_geometry() const override { return real_->donor_geometry(); }
   const Targets& targets() const override { return real_->targets(); }
-  Agreement agree(const Proposal& mine) override {
-    const Agreement agreement = real_->agree(mine);
-    put(tape_, agreement);
-    return agreement;
-  }
   void receive(const Window& window, DonorValues& donors) override {
     real_->receive(window, donors);
     const std::array<double, 3> times = {donors.time, donors.horizon_begin, donors.horizon_end};
@@ -87,37 +112,16 @@ class RecordingFv final : public FvPartner {
     real_->send_particles(window, states);
     put(tape_, CallKind::particles, window, states.size());
   }
-  Ledger exchange(const Window& window, const Ledger& mine) override {
-    const Ledger ledger = real_->exchange(window, mine);
-    put(tape_, window, ledger);
-    return ledger;
-  }
-  void goodbye(const std::string& reason) override {
-    real_->goodbye(reason);
-    put(tape_, CallKind::goodbye, {}, reason);
-    tape_.commit();
-  }
-  double waited() const override { return real_->waited(); }
-  std::string description() const override { return real_->description() + ", recorded"; }
-
- private:
-  std::unique_ptr<FvPartner> real_;
-  TapeWriter tape_;
 };
 
-class RecordingSph final : public SphPartner {
+class RecordingSph final : public Recording<SphPartner> {
  public:
   RecordingSph(std::unique_ptr<SphPartner> real, const std::string& path, const std::string& scene)
-      : real_(std::move(real)), tape_(path, Role::sph, real_->description(), scene) {}
+      : Recording(std::move(real), path, Role::sph, scene) {}
 
   void offer(const DonorGeometry& donors, const Targets& targets) override {
     real_->offer(donors, targets);
     put(tape_, Question::of(donors, targets));
-  }
-  Agreement agree(const Proposal& mine) override {
-    const Agreement agreement = real_->agree(mine);
-    put(tape_, agreement);
-    return agreement;
   }
   void send(const Window& window, const DonorValues& donors) override {
     real_->send(window, donors);
@@ -137,22 +141,6 @@ class RecordingSph final : public SphPartner {
         "particles", [](const auto& s, auto visit) { each_particle_column(s, visit); }, states);
     put(tape_, CallKind::particles, window, states.size());
   }
-  Ledger exchange(const Window& window, const Ledger& mine) override {
-    const Ledger ledger = real_->exchange(window, mine);
-    put(tape_, window, ledger);
-    return ledger;
-  }
-  void goodbye(const std::string& reason) override {
-    real_->goodbye(reason);
-    put(tape_, CallKind::goodbye, {}, reason);
-    tape_.commit();
-  }
-  double waited() const override { return real_->waited(); }
-  std::string description() const override { return real_->description() + ", recorded"; }
-
- private:
-  std::unique_ptr<SphPartner> real_;
-  TapeWriter tape_;
 };
 
 }  // namespace

@@ -74,11 +74,20 @@ void Channel::give_up(const std::string& awaited, const std::vector<int>& silent
                       " s (awaited of its rank " + ranks + "). If it needs longer, raise coupling.deadline");
 }
 
-void Channel::start_send(int rank, const Bytes& message) {
-  if (message.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-    throw CouplingError("a message of " + std::to_string(message.size()) + " bytes to " + who(rank) +
+void Channel::refuse_too_long(int rank, std::size_t bytes) const {
+  if (bytes > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+    throw CouplingError("a message of " + std::to_string(bytes) + " bytes to " + who(rank) +
                         " exceeds what MPI can count; use more ranks");
+}
+
+void Channel::start_send(int rank, const Bytes& message) {
+  refuse_too_long(rank, message.size());
   outbox_.start(rank, message);
+}
+
+void Channel::start_send(int rank, const Outgoing& outgoing) {
+  refuse_too_long(rank, outgoing.size());
+  outbox_.start(rank, outgoing.message, outgoing.columns);
 }
 
 void Channel::complete_sends(const Expected& what) {
@@ -90,112 +99,44 @@ void Channel::complete_sends(const Expected& what) {
   }
 }
 
-/// A message or the header of a long one has come: checks it, takes it or asks for the rest.
-void Channel::begin_reception(std::size_t i, int rank, const Expected& expected, Bytes& buffer,
-                              Header& header) {
-  int yes = 0;
-  MPI_Message handle;
-  MPI_Status status;
-  MPI_Improbe(rank, k_tag_message, intercomm_, &yes, &handle, &status);
-  if (!yes) return;
-  int count = 0;
-  MPI_Get_count(&status, MPI_CHAR, &count);
-  buffer.resize(static_cast<std::size_t>(count));
-  if (buffer.size() != sizeof(Header)) {
-    MPI_Imrecv(buffer.data(), count, MPI_CHAR, &handle, &receives_[i]);
-    progress_[i] = Progress::arriving;
-    return;
-  }
-  MPI_Mrecv(buffer.data(), count, MPI_CHAR, &handle, &status);
-  header = checked_header_of_long_message(buffer.data(), expected, who(rank));
-  if (header.bytes == 0) {
-    progress_[i] = Progress::here;
-    return;
-  }
-  MPI_Send(nullptr, 0, MPI_CHAR, rank, k_tag_request, intercomm_);  // empty: goes at once
-  progress_[i] = Progress::asked;
-}
-
-/// The rest of a long message has come.
-void Channel::begin_rest(std::size_t i, int rank, const Header& header, Bytes& buffer) {
-  int yes = 0;
-  MPI_Message handle;
-  MPI_Status status;
-  MPI_Improbe(rank, k_tag_rest, intercomm_, &yes, &handle, &status);
-  if (!yes) return;
-  int count = 0;
-  MPI_Get_count(&status, MPI_CHAR, &count);
-  if (static_cast<std::uint64_t>(count) != header.bytes)
-    throw CouplingError(who(rank) + " sent " +
-                        (static_cast<std::uint64_t>(count) < header.bytes ? "a truncated" : "an oversized") +
-                        " message (" + name(header.kind) + "): it announces " + std::to_string(header.bytes) +
-                        " bytes and holds " + std::to_string(count));
-  buffer.resize(sizeof(Header) + static_cast<std::size_t>(count));
-  MPI_Imrecv(buffer.data() + sizeof(Header), count, MPI_CHAR, &handle, &receives_[i]);
-  progress_[i] = Progress::arriving;
-}
-
-/// Moves message i as far as it goes now; true when it is here.
-bool Channel::advance(std::size_t i, int rank, const Expected& expected, Bytes& buffer, Header& header) {
-  if (progress_[i] == Progress::awaited) begin_reception(i, rank, expected, buffer, header);
-  if (progress_[i] == Progress::asked) begin_rest(i, rank, header, buffer);
-  if (progress_[i] == Progress::arriving) {
-    int yes = 0;
-    MPI_Test(&receives_[i], &yes, MPI_STATUS_IGNORE);
-    if (!yes) return false;
-    progress_[i] = Progress::here;
-    header = checked_header(buffer.data(), buffer.size(), expected, who(rank));
-  }
-  return progress_[i] == Progress::here;
-}
-
-/// Before an error leaves: no buffer may go away while MPI still writes into it.
-void Channel::settle_receives() {
-  Patience patience(1.0);
-  for (int done = 0; !done && !patience.expired(); patience.pause())
-    MPI_Testall(static_cast<int>(receives_.size()), receives_.data(), &done, MPI_STATUSES_IGNORE);
-}
-
 void Channel::receive(const std::vector<int>& ranks, const std::vector<Expected>& expected,
-                      std::vector<Bytes>& buffers, std::vector<Header>& headers) {
+                      std::vector<Incoming>& messages) {
   const std::size_t n = ranks.size();
-  buffers.resize(std::max(buffers.size(), n));
-  headers.resize(n);
+  if (messages.size() < n) messages.resize(n);
   if (n == 0) return;
-  receives_.assign(n, MPI_REQUEST_NULL);
-  progress_.assign(n, Progress::awaited);
+  for (std::size_t i = 0; i < n; ++i) messages[i].expect(intercomm_, ranks[i], expected[i], who(ranks[i]));
+  const auto begin = messages.begin(), end = begin + static_cast<std::ptrdiff_t>(n);
   Wait wait(*this);
   try {
-    for (std::size_t missing = n; missing > 0;) {
+    for (;;) {
       outbox_.progress();  // the partner may be waiting for our message before it looks after its own
-      for (std::size_t i = 0; i < n; ++i)
-        if (progress_[i] != Progress::here && advance(i, ranks[i], expected[i], buffers[i], headers[i]))
-          --missing;
-      if (missing == 0) break;
-      const bool arriving =
-          std::find(progress_.begin(), progress_.end(), Progress::arriving) != progress_.end();
+      bool all = true;
+      for (auto m = begin; m != end; ++m) all = (m->here() || m->progress()) && all;
+      if (all) break;
+      const bool arriving = std::any_of(begin, end, [](const Incoming& m) { return m.moving(); });
       // bytes are moving: they need us
       if ((arriving || outbox_.moving()) && !wait.patience.expired()) continue;
       if (wait.go_on()) continue;
       std::vector<int> silent;
       for (std::size_t i = 0; i < n; ++i)
-        if (progress_[i] != Progress::here) silent.push_back(ranks[i]);
+        if (!messages[i].here()) silent.push_back(ranks[i]);
       const auto first = std::find(ranks.begin(), ranks.end(), silent.front()) - ranks.begin();
       give_up(describe(expected[static_cast<std::size_t>(first)]), silent, deadline_);
     }
   } catch (const CouplingError&) {
-    settle_receives();
+    Patience patience(1.0);  // no memory may go away while MPI still writes into it
+    while (!std::all_of(begin, end, [](Incoming& m) { return m.settled(); }) && !patience.expired())
+      patience.pause();
     throw;
   }
 }
 
 Header Channel::receive(int rank, const Expected& expected, Bytes& buffer) {
-  std::vector<Bytes> buffers(1);
-  std::vector<Header> headers;
-  buffers[0].swap(buffer);
-  receive(std::vector<int>{rank}, {expected}, buffers, headers);
-  buffer.swap(buffers[0]);
-  return headers[0];
+  std::vector<Incoming> messages(1);
+  messages[0].buffer().swap(buffer);
+  receive({rank}, {expected}, messages);
+  buffer.swap(messages[0].buffer());
+  return messages[0].header();
 }
 
 Notice Channel::await_farewell() {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bytes.hpp"
+#include "incoming.hpp"
 #include "outbox.hpp"
 #include "wire.hpp"
 
@@ -27,13 +27,14 @@ class Channel {
   /// Starts a message; its bytes must stay until complete_sends(). It moves on in every wait of this channel,
   /// so two ranks may both send before they receive.
   void start_send(int rank, const Bytes& message);
+  void start_send(int rank, const Outgoing& outgoing);
   /// Large messages move only while the sender looks after them: nobody computes with a send under way.
   void complete_sends(const Expected& what);
 
-  /// One message from each of `ranks`, headers checked. buffers[i]: the whole message of ranks[i]. Returned
-  /// headers are in the order of ranks.
+  /// One message from each of `ranks`, headers checked; messages[i]: of ranks[i], into its slots if it has
+  /// any.
   void receive(const std::vector<int>& ranks, const std::vector<Expected>& expected,
-               std::vector<Bytes>& buffers, std::vector<Header>& headers);
+               std::vector<Incoming>& messages);
   /// One message from one rank; payload begins after the header.
   Header receive(int rank, const Expected& expected, Bytes& buffer);
 
@@ -48,10 +49,7 @@ class Channel {
  private:
   struct Wait;
   void look_for_notice();
-  bool advance(std::size_t i, int rank, const Expected& expected, Bytes& buffer, Header& header);
-  void begin_reception(std::size_t i, int rank, const Expected& expected, Bytes& buffer, Header& header);
-  void begin_rest(std::size_t i, int rank, const Header& header, Bytes& buffer);
-  void settle_receives();
+  void refuse_too_long(int rank, std::size_t bytes) const;
   [[noreturn]] void give_up(const std::string& awaited, const std::vector<int>& silent, double seconds) const;
 
   MPI_Comm intercomm_;
@@ -60,9 +58,6 @@ class Channel {
   int size_ = 0;
   double waited_ = 0.0;
   Outbox outbox_;
-  std::vector<MPI_Request> receives_;
-  enum class Progress : std::uint8_t { awaited, asked, arriving, here };
-  std::vector<Progress> progress_;
   std::optional<Notice> farewell_;  // goodbye or leaving, seen while waiting for something else
   std::optional<Notice> abort_;
 };

@@ -157,6 +157,20 @@ void Meeting::goodbye(const std::string& reason) {
   standing_->said_goodbye = true;
 }
 
+Expected Meeting::expected(Kind kind, const Window& window, double time) const {
+  Expected what = expected_of_epoch(kind);
+  what.window = window.index;
+  what.time = time;
+  return what;
+}
+
+Expected Meeting::expected_of_epoch(Kind kind) const {
+  Expected what;
+  what.kind = kind;
+  what.epoch = epoch_;
+  return what;
+}
+
 double Meeting::sum(double value) const {
   MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_SUM, program_);
   return value;

@@ -44,6 +44,10 @@ class Meeting {
   /// Sum over the program.
   double sum(double value) const;
 
+  /// What a message of the window, or of the epoch, has in its header.
+  Expected expected(Kind kind, const Window& window, double time) const;
+  Expected expected_of_epoch(Kind kind) const;
+
  private:
   bool is_root() const { return rank_ == 0; }
   double patience_at_home() const;

@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "littoral/error.hpp"
+#include "mpi_partner.hpp"
 #include "mpi_partners.hpp"
 #include "validate.hpp"
 
@@ -14,12 +15,11 @@ struct Contact {
   std::size_t first = 0, n = 0;
 };
 
-class MpiFvPartner final : public FvPartner {
+class MpiFvPartner final : public MpiPartner<FvPartner> {
  public:
   MpiFvPartner(MPI_Comm program, MPI_Comm intercomm, const std::string& partner, const RunPlan& plan,
                std::shared_ptr<Standing> standing)
-      : meeting_(Role::sph, program, intercomm, partner, plan, std::move(standing)),
-        with_phi_(plan.with_phi) {}
+      : MpiPartner(Role::sph, program, intercomm, partner, plan, std::move(standing)) {}
 
   void announce(const Box& needs, const Box& covers) override {
     const auto theirs = meeting_.meet({needs, covers});
@@ -45,14 +45,8 @@ class MpiFvPartner final : public FvPartner {
   const DonorGeometry& donor_geometry() const override { return geometry_; }
   const Targets& targets() const override { return targets_; }
 
-  Agreement agree(const Proposal& mine) override {
-    donor_pass_ = sample_pass_ = 0;
-    return meeting_.agree(mine);
-  }
-
   void receive(const Window& window, DonorValues& donors) override {
-    Expected what = expected(Kind::donors, window, window.t_begin);
-    what.pass = donor_pass_++;
+    Expected what = next_donors(window);
     expected_.clear();
     for (const auto& contact : donor_contacts_) {
       what.count = contact.n;
@@ -61,14 +55,17 @@ class MpiFvPartner final : public FvPartner {
     donors.resize(geometry_.size(), with_phi_);
     donors.time = donors.horizon_begin = window.t_begin;
     donors.horizon_end = window.t_end;
+    donors_in_.resize(donor_ranks_.size());
+    preludes_.resize(donor_ranks_.size());
+    for (std::size_t i = 0; i < donor_ranks_.size(); ++i)
+      place_donors(donors_in_[i].slots, preludes_[i], donors, donor_contacts_[i].first, donor_contacts_[i].n);
     auto& channel = meeting_.channel();
-    channel.receive(donor_ranks_, expected_, in_, headers_);
+    channel.receive(donor_ranks_, expected_, donors_in_);
     for (std::size_t i = 0; i < donor_ranks_.size(); ++i) {
-      const auto& contact = donor_contacts_[i];
       const double time = donors.time, begin = donors.horizon_begin, end = donors.horizon_end;
       const std::string who = channel.who(donor_ranks_[i]);
-      unpack(in_[i].data() + sizeof(Header), in_[i].size() - sizeof(Header), who,
-             usable_.data() + contact.first, contact.n, donors, contact.first);
+      accept_donors(donors_in_[i].slots, preludes_[i], who, usable_.data() + donor_contacts_[i].first,
+                    donors);
       if (i > 0 && (donors.time != time || donors.horizon_begin != begin || donors.horizon_end != end))
         throw CouplingError(who + " sent donors with another time or horizon than the ranks before it");
       validate_horizon(donors, window, who);
@@ -76,22 +73,21 @@ class MpiFvPartner final : public FvPartner {
   }
 
   void send(const Window& window, const Samples& samples) override {
-    Expected what = expected(Kind::samples, window, window.t_end);
-    what.pass = sample_pass_++;
+    Expected what = next_samples(window);
     check_own(samples);
     auto& channel = meeting_.channel();
-    out_.resize(std::max(out_.size(), target_ranks_.size()));
+    samples_out_.resize(target_ranks_.size());
     for (std::size_t i = 0; i < target_ranks_.size(); ++i) {
       const auto& contact = target_contacts_[i];
-      pack(out_[i], samples, contact.first, contact.n);
-      seal(out_[i], what, contact.n);
-      channel.start_send(target_ranks_[i], out_[i]);
+      pack(samples_out_[i], samples, contact.first, contact.n);
+      seal(samples_out_[i], what, contact.n);
+      channel.start_send(target_ranks_[i], samples_out_[i]);
     }
     channel.complete_sends(what);
   }
 
   void send_particles(const Window& window, const ParticleStates& states) override {
-    const Expected what = expected(Kind::particles, window, window.t_end);
+    const Expected what = meeting_.expected(Kind::particles, window, window.t_end);
     auto& channel = meeting_.channel();
     out_.resize(std::max(out_.size(), grids_.size()));
     for (std::size_t i = 0; i < grids_.size(); ++i) {
@@ -102,43 +98,18 @@ class MpiFvPartner final : public FvPartner {
     channel.complete_sends(what);
   }
 
-  Ledger exchange(const Window& window, const Ledger& mine) override {
-    return meeting_.exchange(window, mine);
-  }
-  void goodbye(const std::string& reason) override { meeting_.goodbye(reason); }
-  double waited() const override { return meeting_.channel().waited(); }
-  std::string description() const override { return meeting_.description(); }
-
  private:
-  Expected expected(Kind kind, const Window& window, double time) const {
-    Expected what;
-    what.kind = kind;
-    what.epoch = meeting_.epoch();
-    what.window = window.index;
-    what.time = time;
-    return what;
-  }
-
-  Expected expected_of_epoch(Kind kind) const {
-    Expected what;
-    what.kind = kind;
-    what.epoch = meeting_.epoch();
-    return what;
-  }
-
   /// Ranks that answer with nothing are no contacts.
   void receive_geometry(const std::vector<int>& ranks) {
     auto& channel = meeting_.channel();
-    channel.receive(ranks, std::vector<Expected>(ranks.size(), expected_of_epoch(Kind::geometry)), in_,
-                    headers_);
+    receive_whole(ranks, meeting_.expected_of_epoch(Kind::geometry));
     geometry_ = DonorGeometry{};
     geometry_.epoch = meeting_.epoch();
     usable_.clear();
     donor_ranks_.clear();
     donor_contacts_.clear();
     for (std::size_t i = 0; i < ranks.size(); ++i) {
-      auto part = unpack_geometry(in_[i].data() + sizeof(Header), in_[i].size() - sizeof(Header),
-                                  channel.who(ranks[i]));
+      auto part = unpack_geometry(in_[i].content(), in_[i].content_size(), channel.who(ranks[i]));
       if (part.size() == 0) continue;
       donor_ranks_.push_back(ranks[i]);
       donor_contacts_.push_back({usable_.size(), part.size()});
@@ -151,15 +122,13 @@ class MpiFvPartner final : public FvPartner {
 
   void receive_targets(const std::vector<int>& ranks) {
     auto& channel = meeting_.channel();
-    channel.receive(ranks, std::vector<Expected>(ranks.size(), expected_of_epoch(Kind::targets)), in_,
-                    headers_);
+    receive_whole(ranks, meeting_.expected_of_epoch(Kind::targets));
     targets_ = Targets{};
     targets_.epoch = meeting_.epoch();
     target_ranks_.clear();
     target_contacts_.clear();
     for (std::size_t i = 0; i < ranks.size(); ++i) {
-      const auto part = unpack_targets(in_[i].data() + sizeof(Header), in_[i].size() - sizeof(Header),
-                                       channel.who(ranks[i]));
+      const auto part = unpack_targets(in_[i].content(), in_[i].content_size(), channel.who(ranks[i]));
       if (part.size() == 0) continue;
       target_ranks_.push_back(ranks[i]);
       target_contacts_.push_back({targets_.size(), part.size()});
@@ -176,25 +145,22 @@ class MpiFvPartner final : public FvPartner {
     for (const auto* column : {&samples.p, &samples.u, &samples.v, &samples.w, &samples.coverage})
       if (column->size() != n) refuse_own(column->size(), n);
     if (samples.status.size() != n) refuse_own(samples.status.size(), n);
-    if (!samples.phi.empty() && samples.phi.size() != n) refuse_own(samples.phi.size(), n);
+    if (samples.phi.size() != (with_phi_ ? n : 0)) refuse_own(samples.phi.size(), with_phi_ ? n : 0);
   }
   [[noreturn]] static void refuse_own(std::size_t found, std::size_t due) {
     throw CouplingError("samples of " + std::to_string(found) +
                         " points are to be sent where the partner asked for " + std::to_string(due));
   }
 
-  Meeting meeting_;
-  bool with_phi_;
   DonorGeometry geometry_;
   Targets targets_;
   std::vector<std::uint8_t> usable_;  // of all donors
   std::vector<int> donor_ranks_, target_ranks_;
   std::vector<Contact> donor_contacts_, target_contacts_;
   std::vector<std::pair<int, Box>> grids_;  // ranks that get our particles, and where they want them
-  std::uint32_t donor_pass_ = 0, sample_pass_ = 0;
-  std::vector<Expected> expected_;
-  std::vector<Header> headers_;
-  std::vector<Bytes> in_, out_;
+  std::vector<Incoming> donors_in_;
+  std::vector<DonorPrelude> preludes_;
+  std::vector<Outgoing> samples_out_;
 };
 
 }  // namespace

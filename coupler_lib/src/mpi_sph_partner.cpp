@@ -3,6 +3,7 @@
 
 #include "clip.hpp"
 #include "littoral/error.hpp"
+#include "mpi_partner.hpp"
 #include "mpi_partners.hpp"
 #include "validate.hpp"
 
@@ -10,12 +11,11 @@ namespace littoral::coupler {
 
 namespace {
 
-class MpiSphPartner final : public SphPartner {
+class MpiSphPartner final : public MpiPartner<SphPartner> {
  public:
   MpiSphPartner(MPI_Comm program, MPI_Comm intercomm, const std::string& partner, const RunPlan& plan,
                 std::shared_ptr<Standing> standing)
-      : meeting_(Role::fv, program, intercomm, partner, plan, std::move(standing)),
-        with_phi_(plan.with_phi) {}
+      : MpiPartner(Role::fv, program, intercomm, partner, plan, std::move(standing)) {}
 
   void offer(const DonorGeometry& donors, const Targets& targets) override {
     validate(donors, "this program");
@@ -31,28 +31,21 @@ class MpiSphPartner final : public SphPartner {
       if (theirs[static_cast<std::size_t>(rank)].targets.meets(mine.donors)) particle_ranks_.push_back(rank);
   }
 
-  Agreement agree(const Proposal& mine) override {
-    donor_pass_ = sample_pass_ = 0;
-    return meeting_.agree(mine);
-  }
-
   void send(const Window& window, const DonorValues& donors) override {
     check_own(donors);
-    Expected what = expected(Kind::donors, window, window.t_begin);
-    what.pass = donor_pass_++;
+    Expected what = next_donors(window);
     auto& channel = meeting_.channel();
-    out_.resize(std::max(out_.size(), donor_ranks_.size()));
+    donors_out_.resize(donor_ranks_.size());
     for (std::size_t i = 0; i < donor_ranks_.size(); ++i) {
-      pack(out_[i], donors, runs_[i], with_phi_);
-      seal(out_[i], what, donor_counts_[i]);
-      channel.start_send(donor_ranks_[i], out_[i]);
+      pack(donors_out_[i], donors, runs_[i], with_phi_);
+      seal(donors_out_[i], what, donor_counts_[i]);
+      channel.start_send(donor_ranks_[i], donors_out_[i]);
     }
     channel.complete_sends(what);
   }
 
   void receive(const Window& window, Samples& samples) override {
-    Expected what = expected(Kind::samples, window, window.t_end);
-    what.pass = sample_pass_++;
+    Expected what = next_samples(window);
     expected_.clear();
     for (const auto& chosen : chosen_) {
       what.count = chosen.size();
@@ -60,13 +53,25 @@ class MpiSphPartner final : public SphPartner {
     }
     samples.resize(n_targets_, with_phi_);
     samples.time = window.t_end;
-    std::fill(samples.status.begin(), samples.status.end(), SampleStatus::uncovered);
-    std::fill(samples.coverage.begin(), samples.coverage.end(), 0.0);
     auto& channel = meeting_.channel();
-    channel.receive(target_ranks_, expected_, in_, headers_);
-    for (std::size_t i = 0; i < target_ranks_.size(); ++i)
-      merge(in_[i].data() + sizeof(Header), in_[i].size() - sizeof(Header), channel.who(target_ranks_[i]),
-            chosen_[i], samples);
+    const std::size_t n = target_ranks_.size();
+    const bool one_answers_all = n == 1 && chosen_[0].size() == n_targets_;
+    samples_in_.resize(n);
+    answers_.resize(n);
+    with_phi_in_.resize(n);
+    const auto answers = [&](std::size_t i) -> Samples& { return one_answers_all ? samples : answers_[i]; };
+    for (std::size_t i = 0; i < n; ++i) {
+      answers(i).resize(chosen_[i].size(), with_phi_);
+      place_samples(samples_in_[i].slots, with_phi_in_[i], answers(i));
+    }
+    channel.receive(target_ranks_, expected_, samples_in_);
+    for (std::size_t i = 0; i < n; ++i)
+      accept_samples(samples_in_[i].slots, with_phi_in_[i], channel.who(target_ranks_[i]), answers(i));
+    if (!one_answers_all) {
+      std::fill(samples.status.begin(), samples.status.end(), SampleStatus::uncovered);
+      std::fill(samples.coverage.begin(), samples.coverage.end(), 0.0);
+      for (std::size_t i = 0; i < n; ++i) merge(answers_[i], chosen_[i], samples);
+    }
     for (std::size_t i = 0; i < n_targets_; ++i) {  // only what is marked as valid carries a number
       if (samples.status[i] == SampleStatus::ok) continue;
       samples.p[i] = samples.u[i] = samples.v[i] = samples.w[i] = 0.0;
@@ -75,42 +80,19 @@ class MpiSphPartner final : public SphPartner {
   }
 
   void receive_particles(const Window& window, ParticleStates& states) override {
-    const Expected what = expected(Kind::particles, window, window.t_end);
+    const Expected what = meeting_.expected(Kind::particles, window, window.t_end);
     states = ParticleStates{};
     states.time = window.t_end;
     auto& channel = meeting_.channel();
-    channel.receive(particle_ranks_, std::vector<Expected>(particle_ranks_.size(), what), in_, headers_);
+    receive_whole(particle_ranks_, what);
     for (std::size_t i = 0; i < particle_ranks_.size(); ++i)
-      unpack(in_[i].data() + sizeof(Header), in_[i].size() - sizeof(Header), channel.who(particle_ranks_[i]),
-             headers_[i].count, states);
+      unpack(in_[i].content(), in_[i].content_size(), channel.who(particle_ranks_[i]), in_[i].header().count,
+             states);
   }
-
-  Ledger exchange(const Window& window, const Ledger& mine) override {
-    return meeting_.exchange(window, mine);
-  }
-  void goodbye(const std::string& reason) override { meeting_.goodbye(reason); }
-  double waited() const override { return meeting_.channel().waited(); }
-  std::string description() const override { return meeting_.description(); }
 
  private:
-  Expected expected(Kind kind, const Window& window, double time) const {
-    Expected what;
-    what.kind = kind;
-    what.epoch = meeting_.epoch();
-    what.window = window.index;
-    what.time = time;
-    return what;
-  }
-
-  Expected expected_of_epoch(Kind kind) const {
-    Expected what;
-    what.kind = kind;
-    what.epoch = meeting_.epoch();
-    return what;
-  }
-
   void send_geometry(const DonorGeometry& donors, const Box& mine, const std::vector<RankBoxes>& theirs) {
-    const Expected what = expected_of_epoch(Kind::geometry);
+    const Expected what = meeting_.expected_of_epoch(Kind::geometry);
     auto& channel = meeting_.channel();
     donor_ranks_.clear();
     donor_counts_.clear();
@@ -133,7 +115,7 @@ class MpiSphPartner final : public SphPartner {
   }
 
   void send_targets(const Targets& targets, const Box& mine, const std::vector<RankBoxes>& theirs) {
-    const Expected what = expected_of_epoch(Kind::targets);
+    const Expected what = meeting_.expected_of_epoch(Kind::targets);
     auto& channel = meeting_.channel();
     target_ranks_.clear();
     chosen_.clear();
@@ -163,17 +145,15 @@ class MpiSphPartner final : public SphPartner {
       for (const auto* column : {&values.phi, &values.dphi_dt}) check(*column);
   }
 
-  Meeting meeting_;
-  bool with_phi_;
   std::size_t n_donors_ = 0, n_targets_ = 0;
   std::vector<int> donor_ranks_, target_ranks_, particle_ranks_;
   std::vector<std::size_t> donor_counts_;
   std::vector<std::vector<Run>> runs_;            // of the donors each rank needs
   std::vector<std::vector<std::size_t>> chosen_;  // targets each rank answers
-  std::uint32_t donor_pass_ = 0, sample_pass_ = 0;
-  std::vector<Expected> expected_;
-  std::vector<Header> headers_;
-  std::vector<Bytes> in_, out_;
+  std::vector<Incoming> samples_in_;
+  std::vector<Samples> answers_;  // of each rank, where more than one answers
+  std::vector<std::uint64_t> with_phi_in_;
+  std::vector<Outgoing> donors_out_;
 };
 
 }  // namespace

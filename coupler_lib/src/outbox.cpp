@@ -6,14 +6,21 @@
 
 namespace littoral::coupler {
 
-void Outbox::start(int rank, const Bytes& message) {
+void Outbox::start(int rank, const Bytes& message, const std::vector<Piece>& columns) {
   auto& parcel = parcels_.emplace_back();
   parcel.rank = rank;
-  parcel.message = &message;
-  parcel.asked = message.size() <= k_one_piece;
-  const std::size_t first = parcel.asked ? message.size() : sizeof(Header);
-  MPI_Isend(message.data(), static_cast<int>(first), MPI_CHAR, rank, k_tag_message, intercomm_,
-            &parcel.request);
+  std::size_t first = message.size();
+  if (message.size() > k_one_piece || !columns.empty()) {
+    first = sizeof(Header);
+    parcel.rest.push_back({message.data() + first, message.size() - first});
+    parcel.rest.insert(parcel.rest.end(), columns.begin(), columns.end());
+  }
+  send(parcel, {message.data(), first}, k_tag_message);
+}
+
+void Outbox::send(Parcel& parcel, const Piece& piece, int tag) {
+  MPI_Isend(piece.at, static_cast<int>(piece.bytes), MPI_CHAR, parcel.rank, tag, intercomm_,
+            &parcel.requests.emplace_back(MPI_REQUEST_NULL));
 }
 
 bool Outbox::progress() {
@@ -21,8 +28,8 @@ bool Outbox::progress() {
   for (auto& parcel : parcels_) {
     if (parcel.gone) continue;
     int yes = 0;
-    MPI_Test(&parcel.request, &yes, MPI_STATUS_IGNORE);
-    if (yes && parcel.asked) {
+    MPI_Testall(static_cast<int>(parcel.requests.size()), parcel.requests.data(), &yes, MPI_STATUSES_IGNORE);
+    if (yes && parcel.rest.empty()) {
       parcel.gone = true;
       continue;
     }
@@ -31,10 +38,8 @@ bool Outbox::progress() {
     MPI_Iprobe(parcel.rank, k_tag_request, intercomm_, &yes, MPI_STATUS_IGNORE);
     if (!yes) continue;
     MPI_Recv(nullptr, 0, MPI_CHAR, parcel.rank, k_tag_request, intercomm_, MPI_STATUS_IGNORE);
-    parcel.asked = true;
-    MPI_Isend(parcel.message->data() + sizeof(Header),
-              static_cast<int>(parcel.message->size() - sizeof(Header)), MPI_CHAR, parcel.rank, k_tag_rest,
-              intercomm_, &parcel.request);
+    for (const Piece& piece : parcel.rest) send(parcel, piece, k_tag_rest);
+    parcel.rest.clear();
   }
   if (all) parcels_.clear();
   return all;
@@ -42,7 +47,7 @@ bool Outbox::progress() {
 
 bool Outbox::moving() const {
   return std::any_of(parcels_.begin(), parcels_.end(),
-                     [](const Parcel& parcel) { return !parcel.gone && parcel.asked; });
+                     [](const Parcel& parcel) { return !parcel.gone && parcel.rest.empty(); });
 }
 
 std::vector<int> Outbox::ranks() const {

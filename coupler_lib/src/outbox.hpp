@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "bytes.hpp"
+#include "outgoing.hpp"
 
 namespace littoral::coupler {
 
@@ -16,7 +16,7 @@ class Outbox {
   explicit Outbox(MPI_Comm intercomm) : intercomm_(intercomm) {}
 
   /// The bytes must stay until they are gone.
-  void start(int rank, const Bytes& message);
+  void start(int rank, const Bytes& message, const std::vector<Piece>& columns = {});
   /// Does what can be done now; true when everything is gone.
   bool progress();
   bool empty() const { return parcels_.empty(); }
@@ -26,11 +26,12 @@ class Outbox {
  private:
   struct Parcel {
     int rank = 0;
-    const Bytes* message = nullptr;
-    bool asked = true;  // short, or the receiver wants the rest
+    std::vector<Piece> rest;  // of a long one, until the receiver asks for it
     bool gone = false;
-    MPI_Request request = MPI_REQUEST_NULL;
+    std::vector<MPI_Request> requests;
   };
+  void send(Parcel& parcel, const Piece& piece, int tag);
+
   MPI_Comm intercomm_;
   std::vector<Parcel> parcels_;
 };

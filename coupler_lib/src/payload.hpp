@@ -3,10 +3,11 @@
 #include <string>
 #include <vector>
 
-#include "bytes.hpp"
 #include "clip.hpp"
+#include "incoming.hpp"
 #include "littoral/coupler/fields.hpp"
 #include "littoral/coupler/window.hpp"
+#include "outgoing.hpp"
 
 namespace littoral::coupler {
 
@@ -28,19 +29,33 @@ DonorGeometry unpack_geometry(const char* bytes, std::size_t count, const std::s
 void pack(Bytes& message, const Targets& all, const std::vector<std::size_t>& chosen);
 Targets unpack_targets(const char* bytes, std::size_t count, const std::string& who);
 
-/// Column by column: p, u, v, w, their derivatives, [phi and its derivative].
-void pack(Bytes& message, const DonorValues& values, const std::vector<Run>& runs, bool with_phi);
-/// Fills values [offset, offset + n); `usable`: of these n cells. Time and horizon become those of the
-/// message.
-void unpack(const char* bytes, std::size_t count, const std::string& who, const std::uint8_t* usable,
-            std::size_t n, DonorValues& values, std::size_t offset);
+/// What stands before the columns of the donors.
+struct DonorPrelude {
+  std::uint64_t with_phi = 0;
+  double time = 0.0, horizon_begin = 0.0, horizon_end = 0.0;
+};
+static_assert(sizeof(DonorPrelude) == 32);
 
-/// Samples [first, first + n).
-void pack(Bytes& message, const Samples& samples, std::size_t first, std::size_t n);
+/// Column by column: p, u, v, w, their derivatives, [phi and its derivative].
+void pack(Outgoing& outgoing, const DonorValues& values, const std::vector<Run>& runs, bool with_phi);
+/// Where they belong: values [offset, offset + n), which must have their final length.
+void place_donors(std::vector<Slot>& slots, DonorPrelude& prelude, DonorValues& values, std::size_t offset,
+                  std::size_t n);
+/// Of what has come there. `usable`: of these n cells. Time and horizon become those of the message.
+void accept_donors(const std::vector<Slot>& slots, const DonorPrelude& prelude, const std::string& who,
+                   const std::uint8_t* usable, DonorValues& values);
+
+/// Answers to some targets: coverage, p, u, v, w, [phi], status of samples [first, first + n).
+void pack(Outgoing& outgoing, const Samples& samples, std::size_t first, std::size_t n);
+/// Where they belong: all of `answers`, which must have their final length; the flag of phi stands before
+/// them.
+void place_samples(std::vector<Slot>& slots, std::uint64_t& with_phi, Samples& answers);
+/// Of what has come there.
+void accept_samples(const std::vector<Slot>& slots, std::uint64_t with_phi, const std::string& who,
+                    const Samples& answers);
 /// Merges the answers for targets `chosen`: better status first, then better coverage, then the earlier
 /// answer.
-void merge(const char* bytes, std::size_t count, const std::string& who,
-           const std::vector<std::size_t>& chosen, Samples& samples);
+void merge(const Samples& answers, const std::vector<std::size_t>& chosen, Samples& samples);
 
 /// Particles inside `box`.
 std::size_t pack(Bytes& message, const ParticleStates& states, const Box& box);

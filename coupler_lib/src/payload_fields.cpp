@@ -47,17 +47,31 @@ void refuse_if_not_finite(const double* values, std::size_t n, const std::uint8_
                         " values of " + field + " NaN or infinite");
 }
 
+template <class T>
+Piece piece(const std::vector<T>& column, std::size_t first, std::size_t n) {
+  return {reinterpret_cast<const char*>(column.data() + first), n * sizeof(T)};
+}
+
 }  // namespace
 
-void pack(Bytes& message, const DonorValues& values, const std::vector<Run>& runs, bool with_phi) {
-  begin(message);
-  ByteWriter writer(message);
-  writer.value(static_cast<std::uint64_t>(with_phi));
-  for (const double t : {values.time, values.horizon_begin, values.horizon_end}) writer.value(t);
+void pack(Outgoing& outgoing, const DonorValues& values, const std::vector<Run>& runs, bool with_phi) {
+  begin(outgoing.message);
+  outgoing.columns.clear();
+  outgoing.gathered.clear();
+  ByteWriter(outgoing.message)
+      .value(DonorPrelude{with_phi ? 1U : 0U, values.time, values.horizon_begin, values.horizon_end});
   std::size_t n = 0;
   for (const auto& run : runs) n += run.n;
+  const std::size_t n_columns = k_donor_columns.size() + (with_phi ? k_phi_columns.size() : 0);
+  // one run is sent from where it lies; more are brought together first
+  if (runs.size() > 1) outgoing.gathered.resize(n_columns * n * sizeof(double));
+  char* at = outgoing.gathered.data();
   const auto column = [&](const std::vector<double>& field) {
-    char* at = writer.reserve(n * sizeof(double));
+    if (runs.size() == 1) {
+      outgoing.columns.push_back(piece(field, runs[0].first, n));
+      return;
+    }
+    outgoing.columns.push_back({at, n * sizeof(double)});
     for (const auto& run : runs) {
       std::memcpy(at, field.data() + run.first, run.n * sizeof(double));
       at += run.n * sizeof(double);
@@ -66,101 +80,105 @@ void pack(Bytes& message, const DonorValues& values, const std::vector<Run>& run
   for (const auto& [field, member] : k_donor_columns) column(values.*member);
   if (with_phi)
     for (const auto& [field, member] : k_phi_columns) column(values.*member);
+  if (outgoing.size() <= k_one_piece) outgoing.join();
 }
 
-void unpack(const char* bytes, std::size_t count, const std::string& who, const std::uint8_t* usable,
-            std::size_t n, DonorValues& values, std::size_t offset) {
-  ByteReader reader(bytes, count, "donors");
-  const auto with_phi = reader.value<std::uint64_t>();
-  if (with_phi > 1) reader.refuse("the flag of phi is neither 0 nor 1");
-  if (n > 0 && (with_phi == 1) == values.phi.empty())
-    throw CouplingError(who + (with_phi ? " sent" : " did not send") +
+void place_donors(std::vector<Slot>& slots, DonorPrelude& prelude, DonorValues& values, std::size_t offset,
+                  std::size_t n) {
+  slots.assign(1, {reinterpret_cast<char*>(&prelude), sizeof prelude, false, true});
+  const auto column = [&](std::vector<double>& field) {
+    slots.push_back({reinterpret_cast<char*>(field.data() + offset), n * sizeof(double), true, true});
+  };
+  for (const auto& [field, member] : k_donor_columns) column(values.*member);
+  if (!values.phi.empty())
+    for (const auto& [field, member] : k_phi_columns) column(values.*member);
+}
+
+void accept_donors(const std::vector<Slot>& slots, const DonorPrelude& prelude, const std::string& who,
+                   const std::uint8_t* usable, DonorValues& values) {
+  const bool with_phi = slots.size() > 1 + k_donor_columns.size();
+  if (prelude.with_phi > 1) throw CouplingError(who + " sent donors whose flag of phi is neither 0 nor 1");
+  if ((prelude.with_phi == 1) != with_phi)
+    throw CouplingError(who + (with_phi ? " did not send" : " sent") +
                         " phi with the donors, against the scene");
-  values.time = reader.value<double>();
-  values.horizon_begin = reader.value<double>();
-  values.horizon_end = reader.value<double>();
-  const auto column = [&](const char* field, std::vector<double>& target) {
-    if (n > reader.left() / sizeof(double)) reader.refuse("a column is longer than the message");
-    double* to = target.data() + offset;
-    if (!copy_finite(reader.take(n * sizeof(double)), to, n))
-      refuse_if_not_finite(to, n, usable, field, "donors", who);
+  values.time = prelude.time;
+  values.horizon_begin = prelude.horizon_begin;
+  values.horizon_end = prelude.horizon_end;
+  auto slot = slots.begin() + 1;
+  const auto check = [&](const char* field) {
+    if (!slot->all_finite)
+      refuse_if_not_finite(reinterpret_cast<const double*>(slot->at), slot->bytes / sizeof(double), usable,
+                           field, "donors", who);
+    ++slot;
   };
-  for (const auto& [field, member] : k_donor_columns) column(field, values.*member);
+  for (const auto& [field, member] : k_donor_columns) check(field);
   if (with_phi)
-    for (const auto& [field, member] : k_phi_columns) column(field, values.*member);
-  reader.expect_end();
+    for (const auto& [field, member] : k_phi_columns) check(field);
 }
 
-void pack(Bytes& message, const Samples& samples, std::size_t first, std::size_t n) {
-  begin(message);
-  ByteWriter writer(message);
-  writer.value(static_cast<std::uint64_t>(!samples.phi.empty()));
-  for (const auto& [field, member] : k_sample_columns) writer.column((samples.*member).data() + first, n);
-  writer.column(samples.coverage.data() + first, n);
-  if (!samples.phi.empty()) writer.column(samples.phi.data() + first, n);
-  writer.column(samples.status.data() + first, n);
+void pack(Outgoing& outgoing, const Samples& samples, std::size_t first, std::size_t n) {
+  begin(outgoing.message);
+  outgoing.columns.clear();
+  ByteWriter(outgoing.message).value(static_cast<std::uint64_t>(!samples.phi.empty()));
+  outgoing.columns.push_back(piece(samples.coverage, first, n));
+  for (const auto& [field, member] : k_sample_columns)
+    outgoing.columns.push_back(piece(samples.*member, first, n));
+  if (!samples.phi.empty()) outgoing.columns.push_back(piece(samples.phi, first, n));
+  outgoing.columns.push_back(piece(samples.status, first, n));
+  if (outgoing.size() <= k_one_piece) outgoing.join();
 }
 
-void merge(const char* bytes, std::size_t count, const std::string& who,
-           const std::vector<std::size_t>& chosen, Samples& samples) {
-  ByteReader reader(bytes, count, "samples");
-  const std::size_t n = chosen.size();
-  const auto with_phi = reader.value<std::uint64_t>();
-  if (with_phi > 1) reader.refuse("the flag of phi is neither 0 nor 1");
-  // columns lie in the message as they are; it was allocated for doubles
-  std::array<const char*, 6> column{};
-  const std::size_t n_columns = with_phi ? 6 : 5;
-  for (std::size_t c = 0; c < n_columns; ++c) {
-    if (n > reader.left() / sizeof(double)) reader.refuse("a column is longer than the message");
-    column[c] = reader.take(n * sizeof(double));
-  }
-  const char* statuses = reader.take(n);
-  reader.expect_end();
-  const auto value = [](const char* from, std::size_t i) {
-    double v;
-    std::memcpy(&v, from + i * sizeof v, sizeof v);
-    return v;
+void place_samples(std::vector<Slot>& slots, std::uint64_t& with_phi, Samples& answers) {
+  slots.assign(1, {reinterpret_cast<char*>(&with_phi), sizeof with_phi, false, true});
+  const auto column = [&](std::vector<double>& field) {
+    slots.push_back({reinterpret_cast<char*>(field.data()), field.size() * sizeof(double), true, true});
   };
-  const bool take_phi = with_phi && !samples.phi.empty();
+  column(answers.coverage);
+  for (const auto& [field, member] : k_sample_columns) column(answers.*member);
+  if (!answers.phi.empty()) column(answers.phi);
+  slots.push_back({reinterpret_cast<char*>(answers.status.data()), answers.status.size(), false, true});
+}
+
+void accept_samples(const std::vector<Slot>& slots, std::uint64_t with_phi, const std::string& who,
+                    const Samples& answers) {
+  const bool due = !answers.phi.empty();
+  if (with_phi > 1) throw CouplingError(who + " sent samples whose flag of phi is neither 0 nor 1");
+  if ((with_phi == 1) != due)
+    throw CouplingError(who + (due ? " did not send" : " sent") + " phi with the samples, against the scene");
+  const std::size_t n = answers.status.size();
+  const auto* statuses = reinterpret_cast<const unsigned char*>(answers.status.data());
   unsigned char worst = 0;
-  for (std::size_t i = 0; i < n; ++i) worst = std::max(worst, static_cast<unsigned char>(statuses[i]));
+  for (std::size_t i = 0; i < n; ++i) worst = std::max(worst, statuses[i]);
   if (worst > static_cast<unsigned char>(SampleStatus::uncovered))
     throw CouplingError(who + " sent a sample with the unknown status " + std::to_string(worst));
 
-  bool all_finite = true;
-  for (std::size_t i = 0; i < n; ++i) {
+  // coverage matters always, a state where it is ok, phi where there is any answer
+  auto slot = slots.begin() + 1;
+  const auto check = [&](const char* field, const std::vector<double>& values, SampleStatus up_to) {
+    if ((slot++)->all_finite) return;
+    std::vector<std::uint8_t> matters(n);
+    for (std::size_t i = 0; i < n; ++i) matters[i] = answers.status[i] <= up_to;
+    refuse_if_not_finite(values.data(), n, matters.data(), field, "samples", who);
+  };
+  check("coverage", answers.coverage, SampleStatus::uncovered);
+  for (const auto& [field, member] : k_sample_columns) check(field, answers.*member, SampleStatus::ok);
+  if (due) check("phi", answers.phi, SampleStatus::dry);
+}
+
+void merge(const Samples& answers, const std::vector<std::size_t>& chosen, Samples& samples) {
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
     const std::size_t at = chosen[i];
-    const auto status = static_cast<SampleStatus>(statuses[i]);
-    const double coverage = value(column[4], i);
-    const double p = value(column[0], i), u = value(column[1], i), v = value(column[2], i),
-                 w = value(column[3], i);
-    all_finite = all_finite && std::isfinite(p * 0.0 + u * 0.0 + v * 0.0 + w * 0.0 + coverage * 0.0);
-    const bool better =
-        status < samples.status[at] || (status == samples.status[at] && coverage > samples.coverage[at]);
+    const SampleStatus status = answers.status[i];
+    const bool better = status < samples.status[at] ||
+                        (status == samples.status[at] && answers.coverage[i] > samples.coverage[at]);
     if (!better) continue;
     samples.status[at] = status;
-    samples.p[at] = p;
-    samples.u[at] = u;
-    samples.v[at] = v;
-    samples.w[at] = w;
-    samples.coverage[at] = coverage;
-    if (take_phi) samples.phi[at] = value(column[5], i);
-  }
-  if (take_phi) all_finite = all_finite && coupler::all_finite(column[5], n);
-  if (all_finite) return;
-
-  // which ones, and do they matter? a state where it is ok, phi where there is any answer, coverage always
-  constexpr std::array<const char*, 6> k_names{"p", "u", "v", "w", "coverage", "phi"};
-  for (std::size_t c = 0; c < n_columns; ++c) {
-    const auto matters = [&](std::size_t i) {
-      const auto status = static_cast<SampleStatus>(statuses[i]);
-      return c == 4 || (c == 5 ? take_phi && status != SampleStatus::uncovered : status == SampleStatus::ok);
-    };
-    std::size_t bad = 0;
-    for (std::size_t i = 0; i < n; ++i) bad += matters(i) && !std::isfinite(value(column[c], i));
-    if (bad > 0)
-      throw CouplingError(who + " sent samples with " + std::to_string(bad) + " of " + std::to_string(n) +
-                          " values of " + k_names[c] + " NaN or infinite");
+    samples.coverage[at] = answers.coverage[i];
+    samples.p[at] = answers.p[i];
+    samples.u[at] = answers.u[i];
+    samples.v[at] = answers.v[i];
+    samples.w[at] = answers.w[i];
+    if (!samples.phi.empty()) samples.phi[at] = answers.phi[i];
   }
 }
 

@@ -57,17 +57,6 @@ bool all_finite(const void* values, std::size_t n) {
   return suspicious == 0;
 }
 
-bool copy_finite(const char* __restrict from, double* __restrict to, std::size_t n) {
-  std::uint64_t suspicious = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    std::uint64_t bits;
-    std::memcpy(&bits, from + i * sizeof bits, sizeof bits);
-    std::memcpy(to + i, &bits, sizeof bits);
-    suspicious |= static_cast<std::uint64_t>((bits & k_exponent) == k_exponent);
-  }
-  return suspicious == 0;
-}
-
 std::size_t count_not_finite(const double* values, std::size_t n, const std::uint8_t* matters) {
   if (all_finite(values, n)) return 0;
   std::size_t count = 0;

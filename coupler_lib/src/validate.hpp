@@ -26,8 +26,6 @@ std::size_t count_not_finite(const double* values, std::size_t n, const std::uin
 
 /// Whether all of n doubles are finite; `values` may be bytes of a message, of any alignment.
 bool all_finite(const void* values, std::size_t n);
-/// Copies n doubles out of a message and tells whether all are finite: one pass over memory instead of two.
-bool copy_finite(const char* from, double* to, std::size_t n);
 
 /// Numbers in messages: shortest form of nine digits.
 std::string text_of(double number);

@@ -97,7 +97,9 @@ std::uint64_t header_check(const Header& header) {
   return hash;
 }
 
-void seal(Bytes& message, const Expected& content, std::uint64_t count) {
+namespace {
+
+void seal(Bytes& message, std::size_t bytes, const Expected& content, std::uint64_t count) {
   Header header;
   header.kind = content.kind;
   header.pass = content.pass;
@@ -105,9 +107,19 @@ void seal(Bytes& message, const Expected& content, std::uint64_t count) {
   header.window = content.window;
   header.time = content.time;
   header.count = count;
-  header.bytes = message.size() - sizeof header;
+  header.bytes = bytes;
   header.check = header_check(header);
   std::memcpy(message.data(), &header, sizeof header);
+}
+
+}  // namespace
+
+void seal(Bytes& message, const Expected& content, std::uint64_t count) {
+  seal(message, message.size() - sizeof(Header), content, count);
+}
+
+void seal(Outgoing& outgoing, const Expected& content, std::uint64_t count) {
+  seal(outgoing.message, outgoing.size() - sizeof(Header), content, count);
 }
 
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "bytes.hpp"
+#include "outgoing.hpp"
 
 namespace littoral::coupler {
 
@@ -45,7 +45,8 @@ inline constexpr int k_tag_notice = 2;
 inline constexpr int k_tag_request = 3;  // empty: the receiver of a long message's header asks for the rest
 inline constexpr int k_tag_rest = 4;
 
-/// Longer messages go in two pieces: the header, and on request the rest.
+/// Longer messages go in pieces: the header, and on request the rest (of donors and samples: what stands
+/// before the columns, then column by column).
 inline constexpr std::size_t k_one_piece = 4096;  // [bytes]
 
 /// Stands in front of every message.
@@ -78,6 +79,7 @@ std::string describe(const Expected& expected);
 
 /// Writes the header (check included) into the first bytes of a message whose payload is complete.
 void seal(Bytes& message, const Expected& content, std::uint64_t count);
+void seal(Outgoing& outgoing, const Expected& content, std::uint64_t count);
 std::uint64_t header_check(const Header& header);
 
 /// The header of a received message, after every field has been compared with what is due.

@@ -36,13 +36,14 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-/// n x n x n centres and as many targets.
-DonorPatch cube(int n) {
+/// n x n x n centres at 0, 1, ... and `margin` more on each side.
+DonorPatch cube(int n, int margin) {
   DonorPatch patch;
-  patch.n = {n, n, n};
-  for (int k = 0; k < n; ++k)
-    for (int j = 0; j < n; ++j)
-      for (int i = 0; i < n; ++i) {
+  const int first = -margin, end = n + margin;
+  patch.n = {end - first, end - first, end - first};
+  for (int k = first; k < end; ++k)
+    for (int j = first; j < end; ++j)
+      for (int i = first; i < end; ++i) {
         patch.x.push_back(i);
         patch.y.push_back(j);
         patch.z.push_back(k);
@@ -112,49 +113,54 @@ Figures measure(const Job& job, bool starts, std::size_t n, const Exchange& exch
   return f;
 }
 
-void print(std::size_t n, const Figures& f) {
-  std::printf("%8zu %10zu %10.1f %10.1f %10.1f %8.2f %8.2f %10.1f\n", n, f.bytes_down + f.bytes_up,
-              1e6 * f.exchange, 1e6 * f.sendrecv, 1e6 * f.ping_pong, f.exchange / f.sendrecv,
-              f.exchange / f.ping_pong, 1e6 * f.control);
+void print(std::size_t n, int margin, const Figures& f) {
+  std::printf("%8zu %6s %10zu %10.1f %10.1f %10.1f %8.2f %8.2f %10.1f\n", n, margin > 0 ? "rows" : "all",
+              f.bytes_down + f.bytes_up, 1e6 * f.exchange, 1e6 * f.sendrecv, 1e6 * f.ping_pong,
+              f.exchange / f.sendrecv, f.exchange / f.ping_pong, 1e6 * f.control);
 }
 
-const std::vector<int> k_sizes{10, 22, 46};  // about 10^3, 10^4, 10^5 cells
-constexpr double k_work = 3.0;               // [s] that the other one waits for
+// About 10^3, 10^4, 10^5 cells, all of a patch (a column is one run of memory) or rows of a larger one.
+struct Case {
+  int n, margin;
+};
+const std::vector<Case> k_cases{{10, 0}, {22, 0}, {46, 0}, {46, 2}};
+constexpr double k_work = 3.0;  // [s] that the other one waits for
 
 int run_fv(Job& job) {
   auto partner = job.sph_partner(plan());
   std::printf(
       "one window's exchange, donors with derivatives one way, samples back; medians in microseconds\n"
-      "%8s %10s %10s %10s %10s %8s %8s %10s\n",
-      "points", "bytes", "exchange", "sendrecv", "ping-pong", "ratio", "ratio", "control");
+      "%8s %6s %10s %10s %10s %10s %8s %8s %10s\n",
+      "points", "of", "bytes", "exchange", "sendrecv", "ping-pong", "ratio", "ratio", "control");
   DonorValues donors;
   Samples samples;
-  for (const int n : k_sizes) {
+  for (const auto& [n, margin] : k_cases) {
     DonorGeometry geometry;
-    geometry.patches.push_back(cube(n));
-    const auto& patch = geometry.patches[0];
+    geometry.patches.push_back(cube(n, margin));
+    const DonorPatch patch = cube(n, 0);
     Targets targets;
     targets.x = patch.x;
     targets.y = patch.y;
     targets.z = patch.z;
     targets.wants.assign(patch.size(), wants_state);
     partner->offer(geometry, targets);
-    donors.resize(patch.size(), false);
+    donors.resize(geometry.size(), false);
     for (auto* column : {&donors.p, &donors.u, &donors.v, &donors.w, &donors.dp_dt})
       std::fill(column->begin(), column->end(), 1.5);
-    print(patch.size(), measure(
-                            job, true, patch.size(),
-                            [&](const Window& window) {
-                              donors.time = donors.horizon_begin = window.t_begin;
-                              donors.horizon_end = window.t_end;
-                              partner->send(window, donors);
-                              partner->receive(window, samples);
-                            },
-                            [&] {
-                              const Window window = partner->agree(proposal(false, false)).window;
-                              partner->exchange(window, {});
-                              return window;
-                            }));
+    print(patch.size(), margin,
+          measure(
+              job, true, patch.size(),
+              [&](const Window& window) {
+                donors.time = donors.horizon_begin = window.t_begin;
+                donors.horizon_end = window.t_end;
+                partner->send(window, donors);
+                partner->receive(window, samples);
+              },
+              [&] {
+                const Window window = partner->agree(proposal(false, false)).window;
+                partner->exchange(window, {});
+                return window;
+              }));
     partner->agree(proposal(true, false));
   }
   partner->offer({}, {});
@@ -166,11 +172,13 @@ int run_fv(Job& job) {
 
 int run_sph(Job& job) {
   auto partner = job.fv_partner(plan());
-  const Box everything{{-1, -1, -1}, {100, 100, 100}};
   DonorValues donors;
   Samples samples;
-  for (std::size_t i = 0; i < k_sizes.size(); ++i) {
-    partner->announce(everything, everything);
+  for (const auto& [n_edge, margin] : k_cases) {
+    const double end = n_edge - 1;
+    const Box cells{{0.1, 0.1, 0.1}, {end - 0.1, end - 0.1, end - 0.1}},
+        points{{-1, -1, -1}, {end + 1, end + 1, end + 1}};
+    partner->announce(cells, points);
     const std::size_t n = partner->targets().size();
     samples.resize(n, false);
     std::fill(samples.p.begin(), samples.p.end(), 2.5);

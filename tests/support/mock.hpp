@@ -2,8 +2,10 @@
 
 #include <mpi.h>
 
+#include <chrono>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "littoral/coupler/analytic.hpp"
@@ -71,6 +73,30 @@ bool misbehave_at_begin(const Script& script, std::int64_t window);
 /// Misbehaviour that replaces message `kind` to the partner's rank 0 by bytes that do not fit. True: done.
 bool misbehave_in_message(const Script& script, const coupler::Job& job, bool donors,
                           const coupler::Window& window, std::size_t count);
+/// Agrees on the next window and begins it as the script has it; `renew` where the region has changed.
+/// Nothing: this program has ended, as is proper or not.
+template <class Partner, class Renew>
+std::optional<coupler::Agreement> begin_window(Partner& partner, const Script& script, const std::string& who,
+                                               coupler::Proposal proposal, std::int64_t windows,
+                                               const Renew& renew) {
+  proposal.stop = windows == script.stop_at;
+  proposal.reason = proposal.stop ? who + " has had enough" : "";
+  proposal.region_changed = windows == script.region_changes_at;
+  coupler::Agreement agreement = partner.agree(proposal);
+  if (agreement.stop) {
+    partner.goodbye(agreement.reason);
+    return std::nullopt;
+  }
+  coupler::set_place(agreement.window.index, agreement.window.t_begin);
+  if (agreement.region_changed) renew();
+  if (misbehave_at_begin(script, agreement.window.index)) return std::nullopt;
+  if (script.misbehave == "early-goodbye" && agreement.window.index == script.at) {
+    partner.goodbye(who + " leaves early");
+    return std::nullopt;
+  }
+  std::this_thread::sleep_for(std::chrono::duration<double>(script.work));
+  return agreement;
+}
 /// Greets with another protocol version, by hand; never returns normally.
 int play_wrong_version(int argc, char** argv, coupler::Role role);
 

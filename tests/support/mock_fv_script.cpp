@@ -1,7 +1,5 @@
-#include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <thread>
 
 #include "clip.hpp"
 #include "littoral/error.hpp"
@@ -114,37 +112,24 @@ int play_fv(Job& job, const Script& script) {
   DonorValues donors;
   Samples samples;
   ParticleStates states;
-  for (;;) {
-    proposal.stop = windows == script.stop_at;
-    proposal.reason = proposal.stop ? "mock_fv has had enough" : "";
-    proposal.region_changed = windows == script.region_changes_at;
-    const Agreement agreement = partner->agree(proposal);
-    if (agreement.stop) {
-      partner->goodbye(agreement.reason);
-      break;
-    }
-    const Window& window = agreement.window;
-    set_place(window.index, window.t_begin);
-    if (agreement.region_changed) partner->offer(geometry, targets);
-    if (misbehave_at_begin(script, window.index)) return 0;
-    if (script.misbehave == "early-goodbye" && window.index == script.at) {
-      partner->goodbye("mock_fv leaves early");
-      return 0;
-    }
-    std::this_thread::sleep_for(std::chrono::duration<double>(script.work));
+  const auto renew = [&] { partner->offer(geometry, targets); };
+  while (const auto agreement = begin_window(*partner, script, "mock_fv", proposal, windows, renew)) {
+    const Window& window = agreement->window;
     for (int pass = 0; pass < plan.schedule.sph_passes(); ++pass) {
       if (!misbehave_in_message(script, job, true, window, n_first)) {
         fill(geometry, window, script, donors);
         if (script.misbehave == "nan" && window.index == script.at)
           for (std::size_t i = 0; i < 3; ++i)
             donors.p[first_inside(geometry, script.layers) + i] = std::nan("");
+        if (script.misbehave == "short-horizon" && window.index == script.at)
+          donors.horizon_end = 0.5 * (window.t_begin + window.t_end);
         partner->send(window, donors);
         if (script.misbehave == "twice" && window.index == script.at) partner->send(window, donors);
       }
       partner->receive(window, samples);
       check_samples(targets, samples, window, script);
     }
-    if (agreement.wants_particles) {
+    if (agreement->wants_particles) {
       partner->receive_particles(window, states);
       for (std::size_t i = 0; i < states.size(); ++i)
         if (states.p[i] != flow(script, {states.x[i], states.y[i], states.z[i]}, window.t_end).p ||

@@ -13,6 +13,28 @@ namespace littoral::mock {
 
 using namespace coupler;
 
+namespace {
+
+/// A long message, whose last column is longer or shorter by `change` bytes than it should be.
+void send_with_a_wrong_end(const Outgoing& outgoing, int change, MPI_Comm partner) {
+  const auto send = [&](const char* at, std::size_t bytes, int tag) {
+    MPI_Send(at, static_cast<int>(bytes), MPI_CHAR, 0, tag, partner);
+  };
+  const Bytes& message = outgoing.message;
+  if (outgoing.columns.empty()) throw ConfigError("mock: this message is too short to go in pieces");
+  send(message.data(), sizeof(Header), k_tag_message);
+  MPI_Recv(nullptr, 0, MPI_CHAR, 0, k_tag_request, partner, MPI_STATUS_IGNORE);
+  send(message.data() + sizeof(Header), message.size() - sizeof(Header), k_tag_rest);
+  const Piece last = outgoing.columns.back();
+  for (const Piece& column : outgoing.columns)
+    if (column.at != last.at) send(column.at, column.bytes, k_tag_rest);
+  std::vector<char> wrong(last.at, last.at + last.bytes);
+  wrong.resize(static_cast<std::size_t>(static_cast<int>(last.bytes) + change));
+  send(wrong.data(), wrong.size(), k_tag_rest);
+}
+
+}  // namespace
+
 bool misbehave_at_begin(const Script& script, std::int64_t window) {
   if (window != script.at) return false;
   const std::string& mode = script.misbehave;
@@ -27,9 +49,9 @@ bool misbehave_at_begin(const Script& script, std::int64_t window) {
 bool misbehave_in_message(const Script& script, const Job& job, bool donors, const Window& window,
                           std::size_t count) {
   const std::string& mode = script.misbehave;
-  const std::vector<std::string> modes{"wrong-window",  "wrong-time",     "wrong-kind",    "wrong-count",
-                                       "truncated",     "oversized",      "header-only",   "random-bytes",
-                                       "short-horizon", "rest-truncated", "rest-oversized"};
+  const std::vector<std::string> modes{"wrong-window",   "wrong-time",    "wrong-kind",  "wrong-count",
+                                       "truncated",      "oversized",     "header-only", "random-bytes",
+                                       "rest-truncated", "rest-oversized"};
   if (window.index != script.at || std::find(modes.begin(), modes.end(), mode) == modes.end()) return false;
   Expected content;
   content.kind = donors ? Kind::donors : Kind::samples;
@@ -40,33 +62,31 @@ bool misbehave_in_message(const Script& script, const Job& job, bool donors, con
   if (mode == "wrong-time") content.time += 1e-3;
   if (mode == "wrong-kind") content.kind = Kind::ledger;
   if (mode == "wrong-count") count += 1;
-  Bytes message;
+  Outgoing outgoing;
+  DonorValues values;
+  Samples samples;
   if (donors) {
-    DonorValues values;
     values.time = values.horizon_begin = window.t_begin;
-    values.horizon_end = mode == "short-horizon" ? 0.5 * (window.t_begin + window.t_end) : window.t_end;
+    values.horizon_end = window.t_end;
     values.resize(count, script.with_phi);
-    pack(message, values, {{0, count}}, script.with_phi);
+    pack(outgoing, values, {{0, count}}, script.with_phi);
   } else {
-    Samples samples;
     samples.resize(count, script.with_phi);
-    pack(message, samples, 0, count);
+    pack(outgoing, samples, 0, count);
   }
-  seal(message, content, count);
+  seal(outgoing, content, count);
+  if (mode == "rest-truncated" || mode == "rest-oversized") {
+    send_with_a_wrong_end(outgoing, mode == "rest-truncated" ? -8 : 8, job.intercomm());
+    return true;
+  }
+  outgoing.join();
+  Bytes& message = outgoing.message;
   if (mode == "truncated") message.resize(message.size() - 8);
   if (mode == "oversized") message.resize(message.size() + 1'000'000, 'x');
   if (mode == "header-only") message.resize(20);
   if (mode == "random-bytes") {
     std::mt19937 random(11);
     for (auto& byte : message) byte = static_cast<char>(random());
-  }
-  if (mode == "rest-truncated" || mode == "rest-oversized") {  // a long message goes in two pieces
-    MPI_Send(message.data(), sizeof(Header), MPI_CHAR, 0, k_tag_message, job.intercomm());
-    MPI_Recv(nullptr, 0, MPI_CHAR, 0, k_tag_request, job.intercomm(), MPI_STATUS_IGNORE);
-    message.resize(message.size() - 8 + (mode == "rest-truncated" ? 0 : 16));
-    MPI_Send(message.data() + sizeof(Header), static_cast<int>(message.size() - sizeof(Header)), MPI_CHAR, 0,
-             k_tag_rest, job.intercomm());
-    return true;
   }
   MPI_Send(message.data(), static_cast<int>(message.size()), MPI_CHAR, 0, k_tag_message, job.intercomm());
   return true;

@@ -1,8 +1,6 @@
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <random>
-#include <thread>
 
 #include "littoral/coupler/donor_search.hpp"
 #include "littoral/error.hpp"
@@ -84,27 +82,12 @@ int play_sph(Job& job, const Script& script) {
   std::int64_t windows = 0;
   DonorValues donors;
   Samples samples;
-  for (;;) {
-    proposal.stop = windows == script.stop_at;
-    proposal.reason = proposal.stop ? "mock_sph has had enough" : "";
-    proposal.region_changed = windows == script.region_changes_at;
-    const Agreement agreement = partner->agree(proposal);
-    if (agreement.stop) {
-      partner->goodbye(agreement.reason);
-      break;
-    }
-    const Window& window = agreement.window;
-    set_place(window.index, window.t_begin);
-    if (agreement.region_changed) {
-      part.lower[2] += 0.01;
-      announce();
-    }
-    if (misbehave_at_begin(script, window.index)) return 0;
-    if (script.misbehave == "early-goodbye" && window.index == script.at) {
-      partner->goodbye("mock_sph leaves early");
-      return 0;
-    }
-    std::this_thread::sleep_for(std::chrono::duration<double>(script.work));
+  const auto renew = [&] {
+    part.lower[2] += 0.01;
+    announce();
+  };
+  while (const auto agreement = begin_window(*partner, script, "mock_sph", proposal, windows, renew)) {
+    const Window& window = agreement->window;
     for (int pass = 0; pass < plan.schedule.sph_passes(); ++pass) {
       partner->receive(window, donors);
       if (!part.empty())
@@ -128,7 +111,7 @@ int play_sph(Job& job, const Script& script) {
       partner->send(window, samples);
       if (script.misbehave == "twice" && window.index == script.at) partner->send(window, samples);
     }
-    if (agreement.wants_particles) partner->send_particles(window, particles_of(script, part, window.t_end));
+    if (agreement->wants_particles) partner->send_particles(window, particles_of(script, part, window.t_end));
     Ledger ledger;
     ledger.mass_inside = 1.0;
     const Ledger both = partner->exchange(window, ledger);

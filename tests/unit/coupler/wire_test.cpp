@@ -112,6 +112,28 @@ void expect_decoded_or_refused(const std::vector<char>& bytes, const Unpack& unp
   }
 }
 
+/// As the partners do it with a message that came in one piece.
+void take_donors(const char* bytes, std::size_t count, const std::string& who,
+                 const std::vector<std::uint8_t>& usable, std::size_t offset, DonorValues& values) {
+  std::vector<Slot> slots;
+  DonorPrelude prelude;
+  place_donors(slots, prelude, values, offset, usable.size());
+  scatter(bytes, count, slots, who, "the donors");
+  accept_donors(slots, prelude, who, usable.data(), values);
+}
+
+void take_samples(const char* bytes, std::size_t count, const std::string& who,
+                  const std::vector<std::size_t>& chosen, Samples& samples) {
+  std::vector<Slot> slots;
+  std::uint64_t with_phi = 0;
+  Samples answers;
+  answers.resize(chosen.size(), !samples.phi.empty());
+  place_samples(slots, with_phi, answers);
+  scatter(bytes, count, slots, who, "the samples");
+  accept_samples(slots, with_phi, who, answers);
+  merge(answers, chosen, samples);
+}
+
 void try_all(const std::vector<char>& bytes) {
   const std::string who = "partner";
   expect_decoded_or_refused(bytes, [&](const char* b, std::size_t n) { unpack_boxes(b, n, who); });
@@ -128,12 +150,12 @@ void try_all(const std::vector<char>& bytes) {
     DonorValues values;
     values.resize(5, true);
     const std::vector<std::uint8_t> usable(3, 1);
-    unpack(b, n, who, usable.data(), 3, values, 2);
+    take_donors(b, n, who, usable, 2, values);
   });
   expect_decoded_or_refused(bytes, [&](const char* b, std::size_t n) {
     Samples samples;
     samples.resize(5, true);
-    merge(b, n, who, {0, 2, 4}, samples);
+    take_samples(b, n, who, {0, 2, 4}, samples);
   });
 }
 
@@ -164,6 +186,10 @@ DonorGeometry some_geometry() {
 }
 
 std::vector<char> content(const Bytes& message) { return {message.begin() + sizeof(Header), message.end()}; }
+std::vector<char> content(Outgoing& outgoing) {
+  outgoing.join();
+  return content(outgoing.message);
+}
 
 TEST(PayloadTest, DamagedMessagesNeverCrash) {
   Bytes message;
@@ -223,13 +249,13 @@ TEST(PayloadTest, DonorsSurviveThroughRuns) {
     };
     for (auto* column : {&values.p, &values.w, &values.dv_dt, &values.dw_dt, &values.phi, &values.dphi_dt})
       fill(*column);
-    Bytes message;
+    Outgoing message;
     pack(message, values, runs(geometry, clips), with_phi);
     const auto bytes = content(message);
     DonorValues back;
     back.resize(10, with_phi);
     const std::vector<std::uint8_t> usable(8, 1);
-    unpack(bytes.data(), bytes.size(), "partner", usable.data(), 8, back, 2);
+    take_donors(bytes.data(), bytes.size(), "partner", usable, 2, back);
     const std::vector<std::size_t> cells{1, 2, 5, 6, 9, 10, 14, 15};
     for (std::size_t i = 0; i < cells.size(); ++i) {
       RC_ASSERT(back.p[i + 2] == values.p[cells[i]]);
@@ -245,13 +271,13 @@ TEST(PayloadTest, NotANumberIsRefusedWhereItMattersWithFieldAndCount) {
   values.resize(4, false);
   back.resize(4, false);
   values.dv_dt[1] = values.dv_dt[2] = std::nan("");
-  Bytes message;
+  Outgoing message;
   pack(message, values, {{0, 4}}, false);
   const auto bytes = content(message);
   const std::vector<std::uint8_t> all{1, 1, 1, 1}, blanked{1, 0, 0, 1};
-  EXPECT_NO_THROW(unpack(bytes.data(), bytes.size(), "fv rank 1", blanked.data(), 4, back, 0));
+  EXPECT_NO_THROW(take_donors(bytes.data(), bytes.size(), "fv rank 1", blanked, 0, back));
   try {
-    unpack(bytes.data(), bytes.size(), "fv rank 1", all.data(), 4, back, 0);
+    take_donors(bytes.data(), bytes.size(), "fv rank 1", all, 0, back);
     FAIL();
   } catch (const CouplingError& error) {
     EXPECT_STREQ(error.what(), "fv rank 1 sent donors with 2 of 4 values of dv_dt NaN or infinite");
@@ -265,7 +291,7 @@ TEST(PayloadTest, TheBestAnswerWins) {
     samples.status[0] = status;
     samples.coverage[0] = coverage;
     samples.p[0] = p;
-    Bytes message;
+    Outgoing message;
     pack(message, samples, 0, 1);
     return content(message);
   };
@@ -273,7 +299,7 @@ TEST(PayloadTest, TheBestAnswerWins) {
   samples.resize(3, false);
   const auto offer = [&](SampleStatus status, double coverage, double p) {
     const auto bytes = answer(status, coverage, p);
-    merge(bytes.data(), bytes.size(), "partner", {1}, samples);
+    take_samples(bytes.data(), bytes.size(), "partner", {1}, samples);
     return samples.p[1];
   };
   EXPECT_EQ(offer(SampleStatus::dry, 0.1, 1.0), 1.0);
