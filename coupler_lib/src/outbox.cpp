@@ -19,6 +19,7 @@ void Outbox::start(int rank, const Bytes& message, const std::vector<Piece>& col
 }
 
 void Outbox::send(Parcel& parcel, const Piece& piece, int tag) {
+  piece.gather();
   MPI_Isend(piece.at, static_cast<int>(piece.bytes), MPI_CHAR, parcel.rank, tag, intercomm_,
             &parcel.requests.emplace_back(MPI_REQUEST_NULL));
 }

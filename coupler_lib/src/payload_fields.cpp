@@ -63,7 +63,7 @@ void pack(Outgoing& outgoing, const DonorValues& values, const std::vector<Run>&
   std::size_t n = 0;
   for (const auto& run : runs) n += run.n;
   const std::size_t n_columns = k_donor_columns.size() + (with_phi ? k_phi_columns.size() : 0);
-  // one run is sent from where it lies; more are brought together first
+  // one run is sent from where it lies; more are brought together
   if (runs.size() > 1) outgoing.gathered.resize(n_columns * n * sizeof(double));
   char* at = outgoing.gathered.data();
   const auto column = [&](const std::vector<double>& field) {
@@ -71,11 +71,8 @@ void pack(Outgoing& outgoing, const DonorValues& values, const std::vector<Run>&
       outgoing.columns.push_back(piece(field, runs[0].first, n));
       return;
     }
-    outgoing.columns.push_back({at, n * sizeof(double)});
-    for (const auto& run : runs) {
-      std::memcpy(at, field.data() + run.first, run.n * sizeof(double));
-      at += run.n * sizeof(double);
-    }
+    outgoing.columns.emplace_back(at, n * sizeof(double), runs, field.data());
+    at += n * sizeof(double);
   };
   for (const auto& [field, member] : k_donor_columns) column(values.*member);
   if (with_phi)
