@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "io/stl.hpp"
 #include "littoral/error.hpp"
 #include "littoral/support/both_files.hpp"
 
@@ -15,8 +16,10 @@ const std::vector<std::pair<std::string, Reconstruction>> k_reconstructions = {
     {"unlimited", Reconstruction::unlimited},
     {"minmod", Reconstruction::minmod},
     {"van_leer", Reconstruction::van_leer}};
-const std::vector<std::pair<std::string, WallStates>> k_wall_states = {{"linear", WallStates::linear},
-                                                                       {"constant", WallStates::constant}};
+const std::vector<std::pair<std::string, WallStates>> k_wall_states = {
+    {"linear", WallStates::linear},
+    {"constant", WallStates::constant},
+    {"extrapolated", WallStates::extrapolated}};
 const std::vector<std::pair<std::string, RiemannSolver>> k_riemann_solvers = {
     {"linearised", RiemannSolver::linearised}, {"low_dissipation", RiemannSolver::low_dissipation}};
 const std::vector<std::pair<std::string, Fidelity>> k_fidelities = {
@@ -62,8 +65,8 @@ void Config::bind(support::Binder& b) {
       .doc("States of the Riemann problem between two particles: how their gradients are used.");
   b.choice("wall_states", wall_states, k_wall_states)
       .doc(
-          "What a particle's Riemann problem with a body uses of its gradients: linear: all; constant: "
-          "none.");
+          "A particle's Riemann problem with a body. One-sided, with all its gradients (linear) or none "
+          "(constant); extrapolated: with dummies that take their states from the water around them.");
   b.choice("riemann", riemann, k_riemann_solvers)
       .doc(
           "linearised: eq. (12) of Di Mascio et al. 2021; low_dissipation: damps sound, and vortices, less.");
@@ -266,11 +269,19 @@ DomainBox<D> domain_of(const RunConfig& config) {
 
 namespace {
 
-/// Through a body thinner than a kernel radius the water of one side would feel that of the other.
+std::shared_ptr<const TriangleSurface> read_surface(const support::BodySpec& spec) {
+  return std::make_shared<const TriangleSurface>(read_triangles(spec.file, spec.scale),
+                                                 "body '" + spec.name + "', " + spec.file);
+}
+
+/// Through a body thinner than a kernel radius the water of one side would feel that of the other. A plate
+/// has no thickness and keeps them apart by itself; parts of a surface from a file are not looked at.
 template <int D>
 void require_thickness(const support::BodySpec& spec, double kernel_radius) {
   using Shape = support::BodySpec::Shape;
-  if (spec.fluid == support::BodySpec::Fluid::inside) return;
+  if (spec.fluid == support::BodySpec::Fluid::inside || spec.shape == Shape::plate ||
+      spec.shape == Shape::stl)
+    return;
   double least = 2.0 * spec.radius;
   if (spec.shape == Shape::cylinder && D == 3) least = std::min(least, spec.length);
   if (spec.shape == Shape::box || spec.shape == Shape::wedge) {
@@ -294,7 +305,8 @@ std::unique_ptr<Walls<D>> walls_of(const RunConfig& config, const std::array<dou
   std::vector<Body> bodies;
   for (const auto& spec : config.scene.bodies) require_thickness<D>(spec, numerics.kernel_radius);
   for (const auto& spec : config.scene.bodies)
-    bodies.emplace_back(spec, D == 2, numerics.kernel_radius / numerics.eos.c);
+    bodies.emplace_back(spec, D == 2, numerics.kernel_radius / numerics.eos.c,
+                        spec.shape == support::BodySpec::Shape::stl ? read_surface(spec) : nullptr);
   return std::make_unique<Walls<D>>(std::move(bodies), numerics, domain_of<D>(config),
                                     Lattice<D>{origin, numerics.spacing});
 }

@@ -47,12 +47,25 @@ void Dummies<D>::fill(const std::vector<Body>& bodies, std::int32_t b, const Lat
     long rest = place;
     for (std::size_t d = D; d-- > 0; rest /= n[d])
       node[d] = lattice.origin[d] + (static_cast<double>(first[d] + rest % n[d]) + 0.5) * lattice.spacing;
-    const Vector3 at = in_scene<D>(node);
-    const SurfacePoint closest = own.closest_wall(at);
-    if (closest.distance > tolerance_ || closest.distance < -depth) continue;
-    const Rotation back = own.state().rotation.inverse();
-    made_.push_back({b, own.to_local(at), own.to_local(closest.point), back(closest.normal)});
+    make(own, b, in_scene<D>(node), depth);
   }
+}
+
+template <int D>
+void Dummies<D>::make(const Body& own, std::int32_t b, const Vector3& place, double depth) {
+  const SurfacePoint closest = own.closest_wall(place);
+  const Vector3 local = own.to_local(place);
+  if (!own.is_sheet()) {
+    if (closest.distance > tolerance_ || closest.distance < -depth) return;
+    const Rotation back = own.state().rotation.inverse();
+    made_.push_back({b, local, own.to_local(closest.point), back(closest.normal)});
+    return;
+  }
+  if (closest.distance > depth) return;
+  // a place on the sheet itself stands behind it for both sides
+  for (const double front : {1.0, -1.0})
+    if (Body::side(local) != front || std::fabs(local[2]) < tolerance_)
+      made_.push_back({b, local, {local[0], local[1], 0.0}, {0.0, 0.0, -front}});
 }
 
 template <int D>
@@ -60,10 +73,11 @@ bool Dummies<D>::counts(const std::vector<Body>& bodies, const Made& dummy, cons
   const auto own = static_cast<std::size_t>(dummy.body);
   const double depth = norm(dummy.place - dummy.wall);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    if (b == own) continue;
+    if (b == own || bodies[b].is_sheet()) continue;
     const double other = -bodies[b].closest_wall(place).distance;
     if (other < -tolerance_) continue;
-    if (other > depth + tolerance_ || (other >= depth - tolerance_ && b < own)) return false;
+    if (bodies[own].is_sheet() || other > depth + tolerance_ || (other >= depth - tolerance_ && b < own))
+      return false;
   }
   return true;
 }
@@ -130,7 +144,27 @@ void Dummies<D>::place(const std::vector<Body>& bodies, double reach) {
 }
 
 template <int D>
+std::array<double, D> Dummies<D>::closest_on_sheet(std::size_t k, const std::array<double, D>& from) const {
+  const SheetPlace& sheet = sheets_[static_cast<std::size_t>(body[k])];
+  const Vector3 local = in_scene<D>(in_source(k, from)) - sheet.centre;
+  Vector3 point = sheet.centre;
+  for (std::size_t q = 0; q < 2; ++q)
+    point = point + std::clamp(dot(local, sheet.axis[q]), -sheet.half[q], sheet.half[q]) * sheet.axis[q];
+  auto on = in_plane<D>(point);
+  for (std::size_t d = 0; d < D; ++d) on[d] = sign_[k][d] * on[d] + offset_[k][d];
+  return on;
+}
+
+template <int D>
 void Dummies<D>::refresh(const std::vector<Body>& bodies) {
+  const bool any = std::any_of(bodies.begin(), bodies.end(), [](const Body& b) { return b.is_sheet(); });
+  sheets_.assign(any ? bodies.size() : 0, {});
+  for (std::size_t b = 0; b < sheets_.size(); ++b) {
+    if (!bodies[b].is_sheet()) continue;
+    const BodyState& state = bodies[b].state();
+    sheets_[b] = {
+        true, state.position, {state.rotation({1, 0, 0}), state.rotation({0, 1, 0})}, bodies[b].sheet()};
+  }
   for (std::size_t k = 0; k < size(); ++k) {
     const Made& made = made_[static_cast<std::size_t>(source_[k])];
     const Body& own = bodies[static_cast<std::size_t>(made.body)];

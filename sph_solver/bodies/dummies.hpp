@@ -19,7 +19,8 @@ struct Lattice {
 /// Particles that fill the bodies as deep as a kernel reaches behind their wet surface. They stand on the
 /// lattice of the fluid's start, so that at first every lattice place is either water or body and no support
 /// has gaps or overlaps, whatever the wall's slope; then they go with their body. Each knows the point of the
-/// surface closest to it and the normal there. Where bodies overlap the deeper one has the dummy.
+/// surface closest to it and the normal there. Where bodies overlap the deeper one has the dummy. A sheet has
+/// two at each place next to it, inside no solid: one for the water on either side.
 template <int D>
 class Dummies {
  public:
@@ -36,6 +37,22 @@ class Dummies {
 
   std::size_t size() const { return source_.size(); }  ///< with copies
   double volume() const { return volume_; }            ///< of each [m^D]
+  /// Of which dummy of a body it is a copy, and the sign of that one's component along d in it.
+  std::size_t n_sources() const { return made_.size(); }
+  std::size_t source(std::size_t k) const { return static_cast<std::size_t>(source_[k]); }
+  double sign(std::size_t k, std::size_t d) const { return sign_[k][d]; }
+  /// A place seen from a copy, as its source sees it: the copy's body stands there.
+  std::array<double, D> in_source(std::size_t k, std::array<double, D> point) const {
+    for (std::size_t d = 0; d < D; ++d) point[d] = sign_[k][d] * (point[d] - offset_[k][d]);
+    return point;
+  }
+  bool on_sheet(std::size_t k) const {
+    return !sheets_.empty() && sheets_[static_cast<std::size_t>(body[k])].given;
+  }
+  /// Of the sheet that a dummy belongs to, the point closest to a given one.
+  std::array<double, D> closest_on_sheet(std::size_t k, const std::array<double, D>& from) const;
+  /// The side of its sheet from which a sheet's dummy is seen, +1 or -1.
+  double front(std::size_t k) const { return -made_[source(k)].normal[2]; }
 
   // of each, copies included (size())
   Columns x;       // [m]
@@ -49,10 +66,18 @@ class Dummies {
     std::int32_t body;
     Vector3 place, wall, normal;  // in the body's frame
   };
+  /// Where a sheet is; given: the body is one.
+  struct SheetPlace {
+    bool given = false;
+    Vector3 centre{};
+    std::array<Vector3, 2> axis{};
+    Point2 half{};
+  };
   bool closed(std::size_t d, std::size_t side) const {
     return box_.sides[d][side] != support::Scene::Side::open;
   }
   void fill(const std::vector<Body>& bodies, std::int32_t b, const Lattice<D>& lattice, double depth);
+  void make(const Body& own, std::int32_t b, const Vector3& place, double depth);
   bool counts(const std::vector<Body>& bodies, const Made& dummy, const Vector3& place) const;
   void add(std::int32_t source, const std::array<double, D>& sign, const std::array<double, D>& offset);
 
@@ -60,6 +85,7 @@ class Dummies {
   double tolerance_;  // [m] round-off of positions
   double volume_;
   std::vector<Made> made_;
+  std::vector<SheetPlace> sheets_;  // of each body; empty where none is a sheet
   // of each, copies included: x = sign x_source + offset
   std::vector<std::int32_t> source_;
   std::vector<std::array<double, D>> sign_, offset_;

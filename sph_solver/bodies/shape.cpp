@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "bodies/section.hpp"
+#include "bodies/triangle_surface.hpp"
 
 namespace littoral::sph {
 namespace {
@@ -73,9 +73,38 @@ class Sphere : public Shape {
   double radius_;
 };
 
+/// A rectangle in the plane z = 0, without thickness.
+class Plate : public Shape {
+ public:
+  explicit Plate(const Point2& half) : half_(half) {}
+  SurfacePoint closest(const Vector3& x) const override {
+    const Vector3 on = {std::clamp(x[0], -half_[0], half_[0]), std::clamp(x[1], -half_[1], half_[1]), 0.0};
+    const double r = norm(x - on);
+    return {on, r > 0.0 ? (1.0 / r) * (x - on) : Vector3{0.0, 0.0, 1.0}, r};
+  }
+  std::array<Vector3, 2> bounds() const override {
+    return {{{-half_[0], -half_[1], 0.0}, {half_[0], half_[1], 0.0}}};
+  }
+  std::optional<Point2> sheet() const override { return half_; }
+
+ private:
+  Point2 half_;
+};
+
+class Triangulated : public Shape {
+ public:
+  explicit Triangulated(std::shared_ptr<const TriangleSurface> surface) : surface_(std::move(surface)) {}
+  SurfacePoint closest(const Vector3& x) const override { return surface_->closest(x); }
+  std::array<Vector3, 2> bounds() const override { return surface_->bounds(); }
+
+ private:
+  std::shared_ptr<const TriangleSurface> surface_;
+};
+
 }  // namespace
 
-std::unique_ptr<Shape> make_shape(const support::BodySpec& spec, bool planar) {
+std::unique_ptr<Shape> make_shape(const support::BodySpec& spec, bool planar,
+                                  std::shared_ptr<const TriangleSurface> surface) {
   using Kind = support::BodySpec::Shape;
   const double half_width = planar ? k_endless : 0.5 * spec.size[1];
   const double a = 0.5 * spec.size[0], c = 0.5 * spec.size[2];
@@ -91,6 +120,10 @@ std::unique_ptr<Shape> make_shape(const support::BodySpec& spec, bool planar) {
     }
     case Kind::sphere:
       return std::make_unique<Sphere>(spec.radius);
+    case Kind::stl:
+      return std::make_unique<Triangulated>(std::move(surface));
+    case Kind::plate:
+      return std::make_unique<Plate>(Point2{a, half_width});
   }
   return nullptr;  // every kind has returned
 }

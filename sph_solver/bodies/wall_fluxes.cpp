@@ -8,12 +8,39 @@
 namespace littoral::sph {
 namespace {
 
+template <Reconstruction variant>
+using Variant = std::integral_constant<Reconstruction, variant>;
+
+/// One-sided problems: the wall's answer depends on the particle alone.
 template <int D, Reconstruction variant>
+struct OneSided {
+  double c;
+  WallFace<D> operator()(const PairSide<D>& i, WallView<D>& view, std::size_t e, const Vector<D>& dx,
+                         const Vector<D>& f) const {
+    return wall_face<D, variant>(i, view.plane(e), dx, f, c);
+  }
+};
+
+/// Two-sided problems with the dummies' states.
+template <int D, Reconstruction variant>
+struct TwoSided {
+  const Dummies<D>& dummies;
+  const DummyStates<D>& states;
+  LinearEos eos;
+  WallFace<D> operator()(const PairSide<D>& i, WallView<D>&, std::size_t e, const Vector<D>& dx,
+                         const Vector<D>& f) const {
+    const double p = states.pressure(e);
+    const DummySide<D> dummy{states.velocity(e), at<D>(dummies.a, e), p, eos.density(p)};
+    return dummy_face<D, variant>(i, dummy, dx, f, eos.c);
+  }
+};
+
+template <int D, bool gradients_count, class Face>
 void loop(const Particles<D>& particles, const Gradients<D>& gradients, const Dummies<D>& dummies,
-          const WallList<D>& list, const Numerics<D>& numerics, double level, std::size_t n_bodies,
-          Rate<D>& rate, RowForces<D>& forces) {
+          const WallList<D>& list, const RowAccelerations<D>& mass_force, const Numerics<D>& numerics,
+          double level, std::size_t n_bodies, const Face& face_of, Rate<D>& rate, RowForces<D>& forces) {
   const Kernel<D> kernel(numerics.kernel_radius);
-  const double V = dummies.volume(), c = numerics.eos.c;
+  const double V = dummies.volume();
   const auto n = static_cast<std::ptrdiff_t>(list.n_rows());
 #pragma omp parallel for schedule(static)
   for (std::ptrdiff_t k = 0; k < n; ++k) {
@@ -21,7 +48,7 @@ void loop(const Particles<D>& particles, const Gradients<D>& gradients, const Du
     const std::size_t i = list.particle(row);
     const auto x = at<D>(particles.x, i);
     PairSide<D> side{at<D>(particles.u, i), particles.p[i], particles.rho[i], {}, {}};
-    if constexpr (variant != Reconstruction::first_order) {
+    if constexpr (gradients_count) {
       side.grad_p = at<D>(gradients.p, i);
       for (std::size_t d = 0; d < D; ++d) side.grad_u[d] = at<D>(gradients.u[d], i);
     }
@@ -34,7 +61,7 @@ void loop(const Particles<D>& particles, const Gradients<D>& gradients, const Du
       for (std::size_t d = 0; d < D; ++d) dx[d] -= x[d];
       const double f = -V * kernel.slope_over_r(std::sqrt(dot_of<D>(dx, dx)));  // V grad W = f dx
       if (f == 0.0) continue;
-      const auto face = wall_face<D, variant>(side, view.plane(e), dx, numerics.gravity, c);
+      const WallFace<D> face = face_of(side, view, e, dx, mass_force[row]);
       volume += f * dot_of<D>(face.jump, dx);
       auto& force = forces[row * n_bodies + static_cast<std::size_t>(dummies.body[e])];
       for (std::size_t d = 0; d < D; ++d) {
@@ -52,31 +79,41 @@ void loop(const Particles<D>& particles, const Gradients<D>& gradients, const Du
 
 template <int D>
 void add_wall_fluxes(const Particles<D>& particles, const Gradients<D>& gradients, const Dummies<D>& dummies,
-                     const WallList<D>& list, const Numerics<D>& numerics, double level, std::size_t n_bodies,
-                     Rate<D>& rate, RowForces<D>& forces) {
+                     const DummyStates<D>& states, const WallList<D>& list,
+                     const RowAccelerations<D>& mass_force, const Numerics<D>& numerics, double level,
+                     std::size_t n_bodies, Rate<D>& rate, RowForces<D>& forces) {
   forces.assign(list.n_rows() * n_bodies, {});
+  const bool two_sided = numerics.wall_states == WallStates::extrapolated;
   const auto with = [&](auto variant) {
-    loop<D, decltype(variant)::value>(particles, gradients, dummies, list, numerics, level, n_bodies, rate,
-                                      forces);
+    constexpr Reconstruction v = decltype(variant)::value;
+    constexpr bool second_order = v != Reconstruction::first_order;
+    const auto run = [&](const auto& face) {
+      loop<D, second_order>(particles, gradients, dummies, list, mass_force, numerics, level, n_bodies, face,
+                            rate, forces);
+    };
+    if (two_sided)
+      run(TwoSided<D, v>{dummies, states, numerics.eos});
+    else
+      run(OneSided<D, v>{numerics.eos.c});
   };
   const bool constant = numerics.wall_states == WallStates::constant;
   switch (constant ? Reconstruction::first_order : numerics.reconstruction) {
     case Reconstruction::first_order:
-      return with(std::integral_constant<Reconstruction, Reconstruction::first_order>{});
+      return with(Variant<Reconstruction::first_order>{});
     case Reconstruction::unlimited:
-      return with(std::integral_constant<Reconstruction, Reconstruction::unlimited>{});
+      return with(Variant<Reconstruction::unlimited>{});
     case Reconstruction::minmod:
-      return with(std::integral_constant<Reconstruction, Reconstruction::minmod>{});
+      return with(Variant<Reconstruction::minmod>{});
     case Reconstruction::van_leer:
-      return with(std::integral_constant<Reconstruction, Reconstruction::van_leer>{});
+      return with(Variant<Reconstruction::van_leer>{});
   }
 }
 
 template void add_wall_fluxes<2>(const Particles<2>&, const Gradients<2>&, const Dummies<2>&,
-                                 const WallList<2>&, const Numerics<2>&, double, std::size_t, Rate<2>&,
-                                 RowForces<2>&);
+                                 const DummyStates<2>&, const WallList<2>&, const RowAccelerations<2>&,
+                                 const Numerics<2>&, double, std::size_t, Rate<2>&, RowForces<2>&);
 template void add_wall_fluxes<3>(const Particles<3>&, const Gradients<3>&, const Dummies<3>&,
-                                 const WallList<3>&, const Numerics<3>&, double, std::size_t, Rate<3>&,
-                                 RowForces<3>&);
+                                 const DummyStates<3>&, const WallList<3>&, const RowAccelerations<3>&,
+                                 const Numerics<3>&, double, std::size_t, Rate<3>&, RowForces<3>&);
 
 }  // namespace littoral::sph

@@ -21,7 +21,7 @@ void add_outer(SymmetricMatrix<D>& B, double f, const Vector<D>& x) {
 template <int D>
 void correct_gradients(const Particles<D>& particles, const NeighborList<D>& neighbors,
                        const Dummies<D>& dummies, const WallList<D>& list,
-                       const std::array<double, D>& gravity, Gradients<D>& gradients) {
+                       const RowAccelerations<D>& mass_force, Gradients<D>& gradients) {
   const Kernel<D> kernel(neighbors.kernel_radius());
   const auto n = static_cast<std::ptrdiff_t>(list.n_rows());
 #pragma omp parallel for schedule(static)
@@ -48,7 +48,8 @@ void correct_gradients(const Particles<D>& particles, const NeighborList<D>& nei
       if (f == 0.0) continue;
       const auto wall = view.plane(e);
       const double along = dot_of<D>(dx, wall.n), weight = f * along * along;
-      const double known = particles.rho[i] * (dot_of<D>(gravity, wall.n) - dot_of<D>(wall.a, wall.n));
+      const double known =
+          particles.rho[i] * (dot_of<D>(mass_force[row], wall.n) - dot_of<D>(wall.a, wall.n));
       add_outer<D>(B, weight, wall.n);
       for (std::size_t d = 0; d < D; ++d) slope[d] += weight * known * wall.n[d];
     }
@@ -60,8 +61,8 @@ void correct_gradients(const Particles<D>& particles, const NeighborList<D>& nei
 }
 
 template void correct_gradients<2>(const Particles<2>&, const NeighborList<2>&, const Dummies<2>&,
-                                   const WallList<2>&, const std::array<double, 2>&, Gradients<2>&);
+                                   const WallList<2>&, const RowAccelerations<2>&, Gradients<2>&);
 template void correct_gradients<3>(const Particles<3>&, const NeighborList<3>&, const Dummies<3>&,
-                                   const WallList<3>&, const std::array<double, 3>&, Gradients<3>&);
+                                   const WallList<3>&, const RowAccelerations<3>&, Gradients<3>&);
 
 }  // namespace littoral::sph

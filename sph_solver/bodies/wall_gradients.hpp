@@ -7,7 +7,7 @@
 namespace littoral::sph {
 
 /// Gradient of the pressure next to walls (S13): each dummy adds what the wall knows, the slope along its
-/// normal, rho (g - a_w) . n = s, to the least squares (S3):
+/// normal, rho (f - a_w) . n = s, to the least squares (S3):
 ///   (sum_j V_j x_ij grad W_ij + sum_w V_w (x_iw . n)^2 F_iw n n^T) grad p = sum_j V_j p_ij grad W_ij
 ///                                                                  + sum_w V_w (x_iw . n)^2 F_iw s n,
 /// exact for water at rest; a row of particles on a floor has a gradient along it. Velocities keep (S3).
@@ -15,11 +15,11 @@ namespace littoral::sph {
 template <int D>
 void correct_gradients(const Particles<D>& particles, const NeighborList<D>& neighbors,
                        const Dummies<D>& dummies, const WallList<D>& list,
-                       const std::array<double, D>& gravity, Gradients<D>& gradients);
+                       const RowAccelerations<D>& mass_force, Gradients<D>& gradients);
 
 extern template void correct_gradients<2>(const Particles<2>&, const NeighborList<2>&, const Dummies<2>&,
-                                          const WallList<2>&, const std::array<double, 2>&, Gradients<2>&);
+                                          const WallList<2>&, const RowAccelerations<2>&, Gradients<2>&);
 extern template void correct_gradients<3>(const Particles<3>&, const NeighborList<3>&, const Dummies<3>&,
-                                          const WallList<3>&, const std::array<double, 3>&, Gradients<3>&);
+                                          const WallList<3>&, const RowAccelerations<3>&, Gradients<3>&);
 
 }  // namespace littoral::sph

@@ -5,7 +5,8 @@
 namespace littoral::sph {
 
 template <int D>
-void WallList<D>::build(const Particles<D>& particles, const Dummies<D>& dummies, double reach) {
+void WallList<D>::build(const Particles<D>& particles, const Dummies<D>& dummies,
+                        const std::vector<Body>& bodies, const Sheets<D>& sheets, double reach) {
   grid_.bin(dummies.x, dummies.size(), 0.5 * reach);
   const auto& order = grid_.order();
   const auto n = static_cast<std::ptrdiff_t>(particles.n_owned);
@@ -17,7 +18,7 @@ void WallList<D>::build(const Particles<D>& particles, const Dummies<D>& dummies
         const auto e = static_cast<std::size_t>(order[k]);
         double r2 = 0.0;
         for (std::size_t d = 0; d < D; ++d) r2 += (dummies.x[d][e] - x[d]) * (dummies.x[d][e] - x[d]);
-        if (r2 < reach * reach) f(order[k]);
+        if (r2 < reach * reach && (sheets.none() || sheets.shows(bodies, dummies, e, x))) f(order[k]);
       }
     });
   };

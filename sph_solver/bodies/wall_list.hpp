@@ -4,16 +4,19 @@
 #include <vector>
 
 #include "bodies/dummies.hpp"
+#include "bodies/sheets.hpp"
 #include "neighbors/cell_grid.hpp"
 #include "particles/particles.hpp"
 
 namespace littoral::sph {
 
-/// The particles that see a wall, and for each of these rows its dummies within reach, grouped by body.
+/// The particles that see a wall, and for each of these rows the dummies within reach that it sees, grouped
+/// by body.
 template <int D>
 class WallList {
  public:
-  void build(const Particles<D>& particles, const Dummies<D>& dummies, double reach);
+  void build(const Particles<D>& particles, const Dummies<D>& dummies, const std::vector<Body>& bodies,
+             const Sheets<D>& sheets, double reach);
 
   std::size_t n_rows() const { return particle_.size(); }
   std::size_t particle(std::size_t row) const { return static_cast<std::size_t>(particle_[row]); }
@@ -37,6 +40,11 @@ class WallList {
   std::vector<std::int32_t> particle_, row_of_, list_;
   std::vector<std::size_t> start_;
 };
+
+/// Acceleration that the water of each row gets besides pressure and friction, f [m/s^2] (n_rows): gravity
+/// and `body_force`. Water at rest with a wall has grad p = rho (f - a_w).
+template <int D>
+using RowAccelerations = std::vector<std::array<double, D>>;
 
 extern template class WallList<2>;
 extern template class WallList<3>;

@@ -1,5 +1,8 @@
 #include "bodies/wall_support.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "bodies/wall_view.hpp"
 #include "physics/kernel.hpp"
 
@@ -10,6 +13,10 @@ namespace {
 // further than sqrt(D)/2 from one, one above its surface row is 1 away.
 template <int D>
 constexpr double k_wet_within = D == 2 ? 0.85 : 0.93;
+
+// Images of dummies nearer to the wall than this are taken from here [spacings]: along a wall that cuts the
+// lattice the first particles may stand .7 spacings off it, and none between them and the wall.
+constexpr double k_least_off = 0.5;
 
 template <int D>
 bool is_wet(const Particles<D>& particles, const NeighborList<D>& neighbors, std::size_t i,
@@ -25,12 +32,20 @@ bool is_wet(const Particles<D>& particles, const NeighborList<D>& neighbors, std
   return false;
 }
 
+/// Where walls meet, the image about the one may lie in the other: no void either.
+template <int D>
+bool is_body(const std::vector<Body>& bodies, const Vector<D>& place, double spacing) {
+  return std::any_of(bodies.begin(), bodies.end(), [&](const Body& body) {
+    return !body.is_sheet() && body.closest_wall(in_scene<D>(place)).distance <= k_on_body * spacing;
+  });
+}
+
 }  // namespace
 
 template <int D>
 void WallSupport<D>::find(const Particles<D>& particles, const NeighborList<D>& neighbors,
-                          const Dummies<D>& dummies, const WallList<D>& list, double spacing,
-                          bool free_surface) {
+                          const std::vector<Body>& bodies, const Dummies<D>& dummies, const WallList<D>& list,
+                          double spacing, bool free_surface) {
   list_ = &list;
   const Kernel<D> kernel(neighbors.kernel_radius());
   R_ = kernel.R;
@@ -57,13 +72,15 @@ void WallSupport<D>::find(const Particles<D>& particles, const NeighborList<D>& 
       separation_[pair] = dx;
       const double f = -dummies.volume() * kernel.slope_over_r(std::sqrt(dot_of<D>(dx, dx)));
       if (f == 0.0) continue;
-      if (free_surface) {
-        const auto wall = view.plane(e);
-        const double behind = dot_of<D>(dx, wall.n) - wall.distance;  // the dummy's depth under that plane
+      const auto wet_before = [&](const WallPlane<D>& wall) {
+        const double along = dot_of<D>(dx, wall.n), depth = along - wall.distance;
+        const double off = std::max(depth, k_least_off * spacing);
         Vector<D> mirror;
-        for (std::size_t d = 0; d < D; ++d) mirror[d] = x[d] + dx[d] - 2.0 * behind * wall.n[d];
-        if (!is_wet<D>(particles, neighbors, i, mirror, k_wet_within<D> * spacing)) continue;
-      }
+        for (std::size_t d = 0; d < D; ++d) mirror[d] = x[d] + dx[d] - (depth + off) * wall.n[d];
+        return is_wet<D>(particles, neighbors, i, mirror, k_wet_within<D> * spacing) ||
+               is_body<D>(bodies, mirror, spacing);
+      };
+      if (free_surface && !wet_before(view.plane(e))) continue;
       wet_[pair] = 1;
       std::size_t m = 0;
       for (std::size_t a = 0; a < D; ++a) {

@@ -8,13 +8,13 @@ namespace littoral::sph {
 
 /// What walls add to the supports of the particles next to them, for the detection of the surface and for the
 /// shifting: a wall is no void. Above the water a wall is dry, and its dummies must not stand in for water:
-/// with a free surface a dummy counts for a particle if water stands where its mirror image about the wall
-/// is.
+/// with a free surface a dummy counts for a particle if water, or another body, is where its mirror image
+/// about the wall is.
 template <int D>
 class WallSupport {
  public:
-  void find(const Particles<D>& particles, const NeighborList<D>& neighbors, const Dummies<D>& dummies,
-            const WallList<D>& list, double spacing, bool free_surface);
+  void find(const Particles<D>& particles, const NeighborList<D>& neighbors, const std::vector<Body>& bodies,
+            const Dummies<D>& dummies, const WallList<D>& list, double spacing, bool free_surface);
 
   /// sum_w V_w grad W_iw x_iw^T, what the walls add to B (S9).
   SymmetricMatrix<D> renormalisation(std::size_t i) const;

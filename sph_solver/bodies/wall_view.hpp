@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include "bodies/wall_list.hpp"
@@ -35,7 +36,8 @@ struct WallPlane {
 
 /// The wall planes of one row. A dummy shows the plane of the surface next to it. Where the particle stands
 /// behind that plane (the far face at a convex edge) it sees the plane of the closest dummy in front of which
-/// it stands; if there is none (it has just entered the body), the plane it is least behind.
+/// it stands; if there is none (it has just entered the body), the plane it is least behind. Of a sheet it
+/// sees the plane at the point closest to itself, square to the way there: the edge of a sheet is round.
 template <int D>
 class WallView {
  public:
@@ -44,6 +46,7 @@ class WallView {
 
   WallPlane<D> plane(std::size_t e) {
     const double d = distance(e);
+    if (d > 0.0 && dummies_.on_sheet(e)) return of_sheet(e);
     if (d >= 0.0) return plane(e, d);
     if (!found_) find_closest();
     return plane(closest_, distance_);
@@ -55,6 +58,13 @@ class WallView {
   }
 
  private:
+  WallPlane<D> of_sheet(std::size_t e) const {
+    Vector<D> n = dummies_.closest_on_sheet(e, x_);
+    for (std::size_t k = 0; k < D; ++k) n[k] -= x_[k];
+    const double d = std::sqrt(dot_of<D>(n, n));
+    for (double& component : n) component /= d;
+    return {n, at<D>(dummies_.u, e), at<D>(dummies_.a, e), d};
+  }
   double distance(std::size_t e) const {
     double d = 0.0;
     for (std::size_t k = 0; k < D; ++k) d += (dummies_.wall[k][e] - x_[k]) * dummies_.normal[k][e];

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
 
 #include "bodies/wall_gradients.hpp"
@@ -11,6 +12,15 @@
 #include "physics/kernel.hpp"
 
 namespace littoral::sph {
+namespace {
+
+std::vector<BodyState> states_of(const std::vector<Body>& bodies) {
+  std::vector<BodyState> states;
+  for (const Body& body : bodies) states.push_back(body.state());
+  return states;
+}
+
+}  // namespace
 
 template <int D>
 Walls<D>::Walls(std::vector<Body> bodies, const Numerics<D>& numerics, const DomainBox<D>& box,
@@ -19,6 +29,7 @@ Walls<D>::Walls(std::vector<Body> bodies, const Numerics<D>& numerics, const Dom
       bodies_(std::move(bodies)),
       // fluid lists may be half a skin old when these are made, and both may move by half a skin after
       reach_(numerics.kernel_radius + 2.0 * numerics.skin),
+      sheets_(bodies_),
       dummies_(bodies_, box, lattice, numerics.kernel_radius),
       loads_(bodies_.size()),
       impulses_(bodies_.size()) {
@@ -28,6 +39,7 @@ Walls<D>::Walls(std::vector<Body> bodies, const Numerics<D>& numerics, const Dom
     any_moves_ = any_moves_ || body.moves();
   }
   dummies_.place(bodies_, reach_);
+  at_step_ = states_of(bodies_);
 }
 
 template <int D>
@@ -70,15 +82,35 @@ bool Walls<D>::outdated() const {
 template <int D>
 void Walls<D>::build(const Particles<D>& particles) {
   if (any_moves_) dummies_.place(bodies_, reach_);
-  list_.build(particles, dummies_, reach_);
-  at_build_.clear();
-  for (const Body& body : bodies_) at_build_.push_back(body.state());
+  list_.build(particles, dummies_, bodies_, sheets_, reach_);
+  if (numerics_.wall_states == WallStates::extrapolated) states_.build(list_, dummies_);
+  at_build_ = states_of(bodies_);
   built_ = true;
 }
 
+namespace {
+
+/// The surface of `body` that a particle has gone through in a step from `start`, if it has: its distance
+/// [m] < 0.
 template <int D>
-std::size_t Walls<D>::keep_out(Particles<D>& particles, double tolerance, double time) {
-  if (!built_) return 0;
+std::optional<SurfacePoint> gone_through(const Body& body, const BodyState& at_start, const Vector3& start,
+                                         const Vector3& x) {
+  if (!body.is_sheet()) {
+    const SurfacePoint wall = body.closest_wall(x);
+    return wall.distance < 0.0 ? std::optional(wall) : std::nullopt;
+  }
+  const Vector3 from = at_start.rotation.inverse()(start - at_start.position), to = body.to_local(x);
+  if (Body::side(from) == Body::side(to) || !body.passage(from, to)) return std::nullopt;
+  const Vector3 normal = body.state().rotation(Vector3{0.0, 0.0, -Body::side(from)});
+  const double depth = std::fabs(to[2]);
+  return SurfacePoint{x - depth * normal, normal, -depth};
+}
+
+}  // namespace
+
+template <int D>
+std::size_t Walls<D>::keep_out(Particles<D>& particles, const std::array<std::vector<double>, D>& start,
+                               double tolerance, double time) {
   std::size_t n_put_back = 0;
   for (std::size_t row = 0; row < list_.n_rows(); ++row) {
     const std::size_t i = list_.particle(row);
@@ -91,30 +123,31 @@ std::size_t Walls<D>::keep_out(Particles<D>& particles, double tolerance, double
         in_front += (dummies_.wall[d][e] - particles.x[d][i]) * dummies_.normal[d][e];
       if (in_front >= 0.0) continue;
       last = dummies_.body[e];
-      const Body& body = bodies_[static_cast<std::size_t>(last)];
+      const auto b = static_cast<std::size_t>(last);
       const Vector3 x = in_scene<D>(at<D>(particles.x, i));
-      const SurfacePoint wall = body.closest_wall(x);
-      if (wall.distance >= 0.0) continue;
+      const auto wall = gone_through<D>(bodies_[b], at_step_[b], in_scene<D>(at<D>(start, i)), x);
+      if (!wall) continue;
       const Vector3 u = in_scene<D>(at<D>(particles.u, i));
-      if (!(-wall.distance <= tolerance)) {
+      if (!(-wall->distance <= tolerance)) {
         std::ostringstream text;
         text << "t = " << time << " s: particle " << particles.id[i] << " at (" << x[0] << ", " << x[1]
              << ", " << x[2] << ") m, velocity (" << u[0] << ", " << u[1] << ", " << u[2] << ") m/s, went "
-             << -wall.distance << " m deep into body '" << body.name() << "', more than half a spacing ("
-             << tolerance << " m). Try a lower time.cfl, a higher fluid.sound_speed or a smaller spacing.";
+             << -wall->distance << " m deep into body '" << bodies_[b].name()
+             << "', more than half a spacing (" << tolerance
+             << " m). Try a lower time.cfl, a higher fluid.sound_speed or a smaller spacing.";
         throw StabilityError(text.str());
       }
-      const double into = dot(u - body.state().velocity_at(wall.point), wall.normal);
-      const Vector3 back = 2.0 * std::max(0.0, into) * wall.normal;
-      const auto to = in_plane<D>(x + 2.0 * wall.distance * wall.normal), slower = in_plane<D>(u - back);
+      const double into = dot(u - bodies_[b].state().velocity_at(wall->point), wall->normal);
+      const Vector3 back = 2.0 * std::max(0.0, into) * wall->normal;
+      const auto to = in_plane<D>(x + 2.0 * wall->distance * wall->normal), slower = in_plane<D>(u - back);
       for (std::size_t d = 0; d < D; ++d) {
         particles.x[d][i] = to[d];
         particles.u[d][i] = slower[d];
       }
-      auto& impulse = impulses_[static_cast<std::size_t>(last)];
+      auto& impulse = impulses_[b];
       impulse.pressure = impulse.pressure + particles.m[i] * back;
       impulse.pressure_moment =
-          impulse.pressure_moment + cross(wall.point - body.state().position, particles.m[i] * back);
+          impulse.pressure_moment + cross(wall->point - bodies_[b].state().position, particles.m[i] * back);
       ++n_put_back;
     }
   }
@@ -122,27 +155,48 @@ std::size_t Walls<D>::keep_out(Particles<D>& particles, double tolerance, double
 }
 
 template <int D>
+void Walls<D>::begin_stage(const Particles<D>& particles, double t, OtherRanks<D>* others) {
+  mass_force_.assign(list_.n_rows(), numerics_.gravity);
+  if (numerics_.body_force) {
+    const auto n = static_cast<std::ptrdiff_t>(list_.n_rows());
+#pragma omp parallel
+    {
+      auto mine = *numerics_.body_force;  // a formula remembers its arguments: each thread needs its own
+#pragma omp for schedule(static)
+      for (std::ptrdiff_t k = 0; k < n; ++k) {
+        const auto row = static_cast<std::size_t>(k);
+        const Vector3 x = in_scene<D>(at<D>(particles.x, list_.particle(row)));
+        for (std::size_t d = 0; d < D; ++d) mass_force_[row][d] += mine[d](x[0], x[1], x[2], t);
+      }
+    }
+  }
+  if (numerics_.wall_states == WallStates::extrapolated)
+    states_.extrapolate(particles, dummies_, list_, mass_force_, numerics_.kernel_radius, others);
+}
+
+template <int D>
 void Walls<D>::correct_gradients(const Particles<D>& particles, const NeighborList<D>& neighbors,
                                  Gradients<D>& gradients) const {
-  sph::correct_gradients<D>(particles, neighbors, dummies_, list_, numerics_.gravity, gradients);
+  sph::correct_gradients<D>(particles, neighbors, dummies_, list_, mass_force_, gradients);
 }
 
 template <int D>
 void Walls<D>::add_rates(const Particles<D>& particles, const Gradients<D>& gradients, double level,
                          Rate<D>& rate) {
-  add_wall_fluxes<D>(particles, gradients, dummies_, list_, numerics_, level, bodies_.size(), rate,
-                     pressure_);
+  add_wall_fluxes<D>(particles, gradients, dummies_, states_, list_, mass_force_, numerics_, level,
+                     bodies_.size(), rate, pressure_);
   if (any_sticks_)
     add_wall_friction<D>(particles, gradients, dummies_, list_, numerics_, sticks_, rate, friction_);
 }
 
 template <int D>
 void Walls<D>::find_support(const Particles<D>& particles, const NeighborList<D>& neighbors) {
-  support_.find(particles, neighbors, dummies_, list_, numerics_.spacing, numerics_.free_surface);
+  support_.find(particles, neighbors, bodies_, dummies_, list_, numerics_.spacing, numerics_.free_surface);
 }
 
 template <int D>
 void Walls<D>::begin_step(double dt) {
+  at_step_ = states_of(bodies_);
   for (std::size_t b = 0; b < loads_.size(); ++b) {
     loads_[b] = {};
     loads_[b].pressure = (1.0 / dt) * impulses_[b].pressure;
@@ -174,6 +228,7 @@ double Walls<D>::coverage(const std::array<double, D>& x) const {
   const Kernel<D> kernel(numerics_.kernel_radius);
   double sum = 0.0;
   list_.for_each_near(x, kernel.R + numerics_.skin, [&](std::size_t e) {
+    if (!sheets_.none() && !sheets_.shows(bodies_, dummies_, e, x)) return;
     double r2 = 0.0;
     for (std::size_t d = 0; d < D; ++d) r2 += (dummies_.x[d][e] - x[d]) * (dummies_.x[d][e] - x[d]);
     sum += dummies_.volume() * kernel.value(std::sqrt(r2));

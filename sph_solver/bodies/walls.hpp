@@ -30,13 +30,22 @@ class Walls {
   /// True if a body has moved by more than half the skin since build().
   bool outdated() const;
   void build(const Particles<D>& particles);
+  /// Particles on different sides of a sheet are no neighbours. comm: local
+  void part(const Particles<D>& particles, NeighborList<D>& neighbors) const {
+    if (!sheets_.none()) sheets_.part(bodies_, particles, neighbors);
+  }
   void forget() { built_ = false; }
 
-  /// Particles that entered a body by less than `tolerance` go back to their mirror image about its surface,
-  /// velocity included; the body gets their momentum. Returns their number.
+  /// Particles that in this step, begun at `start`, entered a body or went through a sheet by less than
+  /// `tolerance` go back to their mirror image about its surface, velocity included; the body gets their
+  /// momentum. Returns their number. pre: nobody was added, removed or sorted since build()
   /// throws StabilityError naming a particle that is deeper inside, and the body
-  std::size_t keep_out(Particles<D>& particles, double tolerance, double time);
+  std::size_t keep_out(Particles<D>& particles, const std::array<std::vector<double>, D>& start,
+                       double tolerance, double time);
 
+  /// What the terms of a stage at time t need: the mass force of each row, and the dummies' states where they
+  /// have some. comm: one sum over `others` with extrapolated wall states, else local
+  void begin_stage(const Particles<D>& particles, double t, OtherRanks<D>* others);
   /// Terms of a stage (S12)-(S14).
   void correct_gradients(const Particles<D>& particles, const NeighborList<D>& neighbors,
                          Gradients<D>& gradients) const;
@@ -58,7 +67,11 @@ class Walls {
   const Dummies<D>& dummies() const { return dummies_; }
   const WallList<D>& list() const { return list_; }
   double coverage(const std::array<double, D>& x) const;  ///< sum_w V_w W at a point: the bodies' share
-  bool inside(const std::array<double, D>& x) const;      ///< a body
+  bool inside(const std::array<double, D>& x) const;      ///< a body, or on a sheet
+  /// A sheet stands between two points.
+  bool between(const std::array<double, D>& x, const std::array<double, D>& y) const {
+    return sheets_.between(bodies_, x, y);
+  }
 
  private:
   Numerics<D> numerics_;
@@ -66,12 +79,15 @@ class Walls {
   std::vector<char> sticks_;
   bool any_moves_ = false, any_sticks_ = false;
   double reach_;  // [m]
+  Sheets<D> sheets_;
   Dummies<D> dummies_;
   WallList<D> list_;
   WallSupport<D> support_;
+  DummyStates<D> states_;
+  RowAccelerations<D> mass_force_;
   RowForces<D> pressure_, friction_;  // of the last stage
   std::vector<BodyLoad> loads_, impulses_;
-  std::vector<BodyState> at_build_;
+  std::vector<BodyState> at_build_, at_step_;  // the bodies' states then
   bool built_ = false;
 };
 

@@ -1,5 +1,6 @@
 #include "coupling/samples.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -56,7 +57,7 @@ struct Weighted {
 
 template <int D>
 void sample_states(const Particles<D>& particles, const Layers<D>& layers, const SampleRules& rules,
-                   const coupler::Targets& targets, coupler::Samples& samples) {
+                   const coupler::Targets& targets, coupler::Samples& samples, const Walls<D>* walls) {
   const Kernel<D> kernel(rules.kernel_radius);
   std::array<std::vector<double>, D> x;
   std::vector<std::size_t> source;
@@ -100,6 +101,7 @@ void sample_states(const Particles<D>& particles, const Layers<D>& layers, const
             r2 += b[d + 1] * b[d + 1];
           }
           if (r2 >= 1.0) continue;
+          if (walls != nullptr && walls->between(target, at<D>(x, s))) continue;
           const double weight = particles.V[source[s]] * kernel.value(std::sqrt(r2) * kernel.R);
           near.push_back({s, weight});
           coverage += weight;
@@ -107,6 +109,7 @@ void sample_states(const Particles<D>& particles, const Layers<D>& layers, const
             for (std::size_t j = 0; j < k_basis<D>; ++j) A[i][j] += weight * b[i] * b[j];
         }
       });
+      if (walls != nullptr) coverage /= std::max(k_least_coverage, 1.0 - walls->coverage(target));
       samples.coverage[t] = coverage;
       if (coverage < k_least_coverage) {
         if (rules.free_surface) samples.status[t] = coupler::SampleStatus::dry;
@@ -115,7 +118,7 @@ void sample_states(const Particles<D>& particles, const Layers<D>& layers, const
       std::array<double, k_basis<D>> c{};
       if (rules.method == SampleMethod::shepard || !first_column_of_inverse<D>(A, c)) {
         c.fill(0.0);
-        c[0] = 1.0 / coverage;
+        c[0] = 1.0 / A[0][0];
       }
       double p = 0.0;
       Point<D> u{};
@@ -136,8 +139,8 @@ void sample_states(const Particles<D>& particles, const Layers<D>& layers, const
 }
 
 template void sample_states<2>(const Particles<2>&, const Layers<2>&, const SampleRules&,
-                               const coupler::Targets&, coupler::Samples&);
+                               const coupler::Targets&, coupler::Samples&, const Walls<2>*);
 template void sample_states<3>(const Particles<3>&, const Layers<3>&, const SampleRules&,
-                               const coupler::Targets&, coupler::Samples&);
+                               const coupler::Targets&, coupler::Samples&, const Walls<3>*);
 
 }  // namespace littoral::sph

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "bodies/walls.hpp"
 #include "boundary/ghosts.hpp"
 #include "coupling/zones.hpp"
 #include "littoral/coupler/fields.hpp"
@@ -23,16 +24,18 @@ struct SampleRules {
 /// Where the linear basis cannot be fitted (too few particles, or all on a line) Shepard's value serves;
 /// where the coverage sum(V W) is below a quarter, less than the corner of a body of water has, there is no
 /// value: the point is dry in a scene with a free surface, else uncovered. Points outside the nominal box and
-/// its blending layers are uncovered.
+/// its blending layers are uncovered. Of a kernel that bodies cut, the coverage is that of the part they
+/// leave.
 ///
-/// in    particles, owned and copies, with positions and states of `time`
+/// in    particles, owned and copies, with positions and states of `time`; walls: null without bodies
 ///
 /// out   samples: all but phi; the same on any number of threads
 ///
 /// comm  local. throws nothing
 template <int D>
 void sample_states(const Particles<D>& particles, const Layers<D>& layers, const SampleRules& rules,
-                   const coupler::Targets& targets, coupler::Samples& samples);
+                   const coupler::Targets& targets, coupler::Samples& samples,
+                   const Walls<D>* walls = nullptr);
 
 /// phi at the targets that want it, from the surface particles: (20), averaged with the kernel over the
 /// surface particles around the nearest one (a single particle's position is noise of .03 dx). Beyond `band`

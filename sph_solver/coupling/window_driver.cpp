@@ -107,7 +107,7 @@ void WindowDriver<D>::send_samples(const coupler::Window& window, Particles<D>& 
                                    Dynamics<D>& dynamics) {
   dynamics.prepare(particles, window.t_end, &hooks_);
   samples_.time = window.t_end;
-  sample_states(particles, layers(), sample_rules_, partner_.targets(), samples_);
+  sample_states(particles, layers(), sample_rules_, partner_.targets(), samples_, dynamics.walls());
   if (with_phi_)
     sample_level_set(particles, dynamics.ghosts(), sample_rules_, spacing_, phi_band_, partner_.targets(),
                      samples_);

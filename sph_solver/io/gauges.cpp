@@ -4,18 +4,30 @@
 #include <cmath>
 #include <limits>
 
+#include "bodies/wall_view.hpp"
 #include "io/pressure_disc.hpp"
 #include "physics/kernel.hpp"
 #include "physics/symmetric_matrix.hpp"
 
 namespace littoral::sph {
 
+namespace {
+
+template <int D>
+bool hidden(const Particles<D>& particles, const std::array<double, D>& x, std::size_t j,
+            const Walls<D>* walls) {
+  return walls != nullptr && walls->between(x, at<D>(particles.x, j));
+}
+
+}  // namespace
+
 template <int D>
 double coverage_at(const Particles<D>& particles, const NeighborList<D>& neighbors,
-                   const std::array<double, D>& x) {
+                   const std::array<double, D>& x, const Walls<D>* walls) {
   const Kernel<D> kernel(neighbors.kernel_radius());
   double sum = 0.0;
   neighbors.for_each_near(x, [&](std::size_t j) {
+    if (hidden<D>(particles, x, j, walls)) return;
     double r2 = 0.0;
     for (std::size_t d = 0; d < D; ++d) r2 += (particles.x[d][j] - x[d]) * (particles.x[d][j] - x[d]);
     sum += particles.V[j] * kernel.value(std::sqrt(r2));
@@ -25,7 +37,7 @@ double coverage_at(const Particles<D>& particles, const NeighborList<D>& neighbo
 
 template <int D>
 std::optional<PointValue<D>> value_at(const Particles<D>& particles, const NeighborList<D>& neighbors,
-                                      const std::array<double, D>& x) {
+                                      const std::array<double, D>& x, const Walls<D>* walls) {
   // Centred form: q(x) = mean q + g . (x - mean x), g from the weighted covariances. Lengths over R.
   constexpr double k_flat = 1e-3;  // of the mean eigenvalue: neighbours nearly in a line or plane
   const Kernel<D> kernel(neighbors.kernel_radius());
@@ -34,6 +46,7 @@ std::optional<PointValue<D>> value_at(const Particles<D>& particles, const Neigh
   PointValue<D> mean;
   const auto each = [&](const auto& f) {
     neighbors.for_each_near(x, [&](std::size_t j) {
+      if (hidden<D>(particles, x, j, walls)) return;
       std::array<double, D> y;
       double r2 = 0.0;
       for (std::size_t d = 0; d < D; ++d) {
@@ -101,7 +114,7 @@ std::optional<double> elevation_at(const Particles<D>& particles, const Neighbor
     auto point = x;
     point[D - 1] = z;
     const double free = walls ? 1.0 - walls->coverage(point) : 1.0;
-    return coverage_at<D>(particles, neighbors, point) - k_on_surface * free;
+    return coverage_at<D>(particles, neighbors, point, walls) - k_on_surface * free;
   };
   double low = top + kernel.R, high = low;
   do {
@@ -151,19 +164,21 @@ std::vector<double> gauge_values(const std::vector<GaugeConfig>& gauges, const P
       values.insert(values.end(), {disc.p, disc.wet});
       continue;
     }
-    const auto value = value_at<D>(particles, neighbors, x);
+    const auto value = value_at<D>(particles, neighbors, x, walls);
     values.push_back(value ? value->p : k_dry);
     for (std::size_t d = 0; d < D; ++d) values.push_back(value ? value->u[d] : k_dry);
   }
   return values;
 }
 
-template double coverage_at<2>(const Particles<2>&, const NeighborList<2>&, const std::array<double, 2>&);
-template double coverage_at<3>(const Particles<3>&, const NeighborList<3>&, const std::array<double, 3>&);
+template double coverage_at<2>(const Particles<2>&, const NeighborList<2>&, const std::array<double, 2>&,
+                               const Walls<2>*);
+template double coverage_at<3>(const Particles<3>&, const NeighborList<3>&, const std::array<double, 3>&,
+                               const Walls<3>*);
 template std::optional<PointValue<2>> value_at<2>(const Particles<2>&, const NeighborList<2>&,
-                                                  const std::array<double, 2>&);
+                                                  const std::array<double, 2>&, const Walls<2>*);
 template std::optional<PointValue<3>> value_at<3>(const Particles<3>&, const NeighborList<3>&,
-                                                  const std::array<double, 3>&);
+                                                  const std::array<double, 3>&, const Walls<3>*);
 template std::optional<double> elevation_at<2>(const Particles<2>&, const NeighborList<2>&,
                                                const std::array<double, 2>&, double, const Walls<2>*);
 template std::optional<double> elevation_at<3>(const Particles<3>&, const NeighborList<3>&,

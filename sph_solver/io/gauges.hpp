@@ -19,15 +19,16 @@ struct PointValue {
 };
 
 /// Fields at a point, exact for linear fields: moving least squares with a linear basis and weights V W;
-/// Shepard's average where too few particles are near. Absent where there is none.
+/// Shepard's average where too few particles are near. Absent where there is none. walls, here and below:
+/// null without bodies; water behind a sheet does not count.
 template <int D>
 std::optional<PointValue<D>> value_at(const Particles<D>& particles, const NeighborList<D>& neighbors,
-                                      const std::array<double, D>& x);
+                                      const std::array<double, D>& x, const Walls<D>* walls = nullptr);
 
 /// sum V W at a point: 1 in the water, 1/2 on a plane surface.
 template <int D>
 double coverage_at(const Particles<D>& particles, const NeighborList<D>& neighbors,
-                   const std::array<double, D>& x);
+                   const std::array<double, D>& x, const Walls<D>* walls = nullptr);
 
 /// Height of the surface on the vertical line through x: the highest level where sum V W = 1/2, as on a plane
 /// surface. It changes smoothly in time, since no particle is singled out. Absent where the line meets no

@@ -7,6 +7,8 @@
 namespace littoral::sph {
 namespace {
 
+constexpr double k_in_front = 1e-6;  // of the diameter
+
 /// A place of the disc in its own plane, and its share of the area.
 struct Place {
   double s, t, weight;
@@ -47,12 +49,14 @@ DiscPressure disc_pressure(const GaugeConfig& gauge, const Particles<D>& particl
   Vector3 s = cross(other, n);
   s = (1.0 / norm(s)) * s;
   const Vector3 t = cross(n, s);
+  // A disc in a plate hears the water it looks away from, a hair in front of it.
+  const Vector3 centre = gauge.position - k_in_front * gauge.diameter * n;
   DiscPressure mean;
   for (const Place& place : D == 2 ? strips(0.5 * gauge.diameter) : spiral(0.5 * gauge.diameter)) {
-    const auto x = in_plane<D>(gauge.position + place.s * s + place.t * t);
+    const auto x = in_plane<D>(centre + place.s * s + place.t * t);
     const double free = walls ? 1.0 - walls->coverage(x) : 1.0;
-    const bool wet = coverage_at<D>(particles, neighbors, x) >= 0.5 * free;
-    const auto value = wet ? value_at<D>(particles, neighbors, x) : std::nullopt;
+    const bool wet = coverage_at<D>(particles, neighbors, x, walls) >= 0.5 * free;
+    const auto value = wet ? value_at<D>(particles, neighbors, x, walls) : std::nullopt;
     mean.p += place.weight * (value ? value->p : gauge.dry_pressure);
     if (value) mean.wet += place.weight;
   }

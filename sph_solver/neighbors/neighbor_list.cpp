@@ -107,6 +107,19 @@ std::size_t NeighborList<D>::fill(const Particles<D>& particles, std::size_t roo
 }
 
 template <int D>
+void NeighborList<D>::drop_removed() {
+  std::size_t kept = 0, begin = 0;
+  for (std::size_t i = 0; i < n_rows(); ++i) {
+    const std::size_t end = start_[i + 1];
+    for (std::size_t pair = begin; pair < end; ++pair)
+      if (list_[pair] != k_removed) list_[kept++] = list_[pair];
+    start_[i + 1] = kept;
+    begin = end;
+  }
+  list_.resize(kept);
+}
+
+template <int D>
 bool NeighborList<D>::outdated(const Particles<D>& particles, double ahead) const {
   if (!built_ || revision_ != particles.revision) return true;
   const auto n = static_cast<std::ptrdiff_t>(particles.n_owned);

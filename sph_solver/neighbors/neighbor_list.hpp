@@ -34,6 +34,20 @@ class NeighborList {
   /// they have gone on for `ahead` [s] at their velocity.
   bool outdated(const Particles<D>& particles, double ahead = 0.0) const;
 
+  /// Takes pairs out: of the rows i with concerns(i), those with parted(i, j), until the next build.
+  template <class Concerns, class Parted>
+  void remove_pairs(const Concerns& concerns, const Parted& parted) {
+    const auto n = static_cast<std::ptrdiff_t>(n_rows());
+#pragma omp parallel for schedule(static)
+    for (std::ptrdiff_t k = 0; k < n; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      if (!concerns(i)) continue;
+      for (std::size_t pair = start_[i]; pair < start_[i + 1]; ++pair)
+        if (parted(i, static_cast<std::size_t>(list_[pair]))) list_[pair] = k_removed;
+    }
+    drop_removed();
+  }
+
   void forget() { built_ = false; }  ///< outdated() until the next build
 
   std::size_t n_rows() const { return start_.empty() ? 0 : start_.size() - 1; }
@@ -56,6 +70,8 @@ class NeighborList {
   /// then the shares are joined in order. Returns the room the longest share needs: more than `room`, and
   /// nothing is joined.
   std::size_t fill(const Particles<D>& particles, std::size_t room);
+  static constexpr std::int32_t k_removed = -1;
+  void drop_removed();
 
   double kernel_radius_;
   double skin_;

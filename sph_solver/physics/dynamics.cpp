@@ -83,7 +83,10 @@ template <int D>
 void Dynamics<D>::build_lists(Particles<D>& particles) {
   ghosts_.create(particles, neighbors_.reach());
   neighbors_.build(particles, cell_side(particles, neighbors_.least_cell_side(), others_));
-  if (walls_) walls_->build(particles);
+  if (walls_) {
+    walls_->part(particles, neighbors_);
+    walls_->build(particles);
+  }
   ++work_.list_builds;
 }
 
@@ -91,11 +94,7 @@ template <int D>
 void Dynamics<D>::prepare(Particles<D>& particles, double t, StepHooks<D>* hooks, double dt) {
   {
     const PhaseSeconds::Scope scope(seconds_, Phase::lists);
-    if (walls_) {
-      walls_->move_to(t);
-      work_.kept_out +=
-          static_cast<std::int64_t>(walls_->keep_out(particles, k_mirror_tolerance * numerics_.spacing, t));
-    }
+    if (walls_) walls_->move_to(t);
     // Lists that would become outdated in the middle of the step are built now: only here can particles that
     // left through a periodic face be brought back, so that none strays further than half the skin.
     if (outdated(particles, dt)) {
@@ -153,6 +152,10 @@ void Dynamics<D>::right_hand_side(Particles<D>& particles, double t) {
     else if (walls_ && walls_->outdated())
       walls_->build(particles);
   }
+  if (walls_) {
+    const PhaseSeconds::Scope scope(seconds_, Phase::walls);
+    walls_->begin_stage(particles, t, others_);
+  }
   std::visit([&](auto& rows) { pair_loops(particles, rows); }, rows_);
   if (walls_) {
     const PhaseSeconds::Scope scope(seconds_, Phase::walls);
@@ -193,6 +196,14 @@ void Dynamics<D>::step(Particles<D>& particles, double t, double dt, StepHooks<D
     }
   }
   check(particles, t, dt);
+  if (walls_) {
+    walls_->move_to(t + dt);
+    const std::size_t put_back =
+        walls_->keep_out(particles, x_start_, k_mirror_tolerance * numerics_.spacing, t + dt);
+    work_.kept_out += static_cast<std::int64_t>(put_back);
+    if (put_back > 0)
+      neighbors_.forget();  // they may have been made while it was on the wrong side of a sheet
+  }
   if (others_ != nullptr) others_->take_largest(&most_acceleration_, 1);
   ++work_.steps;
   work_.particle_steps += static_cast<std::int64_t>(particles.n_owned);

@@ -8,10 +8,13 @@ namespace littoral::sph {
 /// How the states on the two sides of the midpoint are found from those of the particles.
 enum class Reconstruction : std::uint8_t { first_order, unlimited, minmod, van_leer };
 
-/// What a wall's Riemann problem carries on of the particle's state.
-///   linear    its gradients, to the wall and through it (S12)
-///   constant  its values (Zhang, Hu & Adams 2017); the pressure's slope is that of water at rest
-enum class WallStates : std::uint8_t { linear, constant };
+/// What a particle's Riemann problem with a wall is made of.
+///   linear        one-sided: its state carried on by its gradients, to the wall and through it (S12)
+///   constant      one-sided: its values (Zhang, Hu & Adams 2017); the pressure's slope is that of water at
+///   rest extrapolated  two-sided: dummies with the mean pressure and the mirrored mean velocity of the water
+///   around
+///                 them (Adami, Hu & Adams 2012)
+enum class WallStates : std::uint8_t { linear, constant, extrapolated };
 
 /// How strongly the face pressure answers the jump of velocity.
 ///   linearised       with the full impedance rho c, eq. (12)

@@ -4,10 +4,9 @@ namespace littoral::support {
 namespace {
 
 const std::vector<std::pair<std::string, BodySpec::Shape>> k_shapes = {
-    {"box", BodySpec::Shape::box},
-    {"cylinder", BodySpec::Shape::cylinder},
-    {"sphere", BodySpec::Shape::sphere},
-    {"wedge", BodySpec::Shape::wedge}};
+    {"box", BodySpec::Shape::box},       {"cylinder", BodySpec::Shape::cylinder},
+    {"sphere", BodySpec::Shape::sphere}, {"wedge", BodySpec::Shape::wedge},
+    {"plate", BodySpec::Shape::plate},   {"stl", BodySpec::Shape::stl}};
 const std::vector<std::pair<std::string, BodySpec::Fluid>> k_fluids = {{"outside", BodySpec::Fluid::outside},
                                                                        {"inside", BodySpec::Fluid::inside}};
 const std::vector<std::pair<std::string, BodySpec::Slip>> k_slips = {{"free", BodySpec::Slip::free},
@@ -17,14 +16,21 @@ const std::vector<std::pair<std::string, BodySpec::Slip>> k_slips = {{"free", Bo
 
 void BodySpec::bind(Binder& b) {
   b.key("name", name).required().doc("Names its columns in scalars.csv.");
-  b.choice("shape", shape, k_shapes).doc("Its form; 2-D scenes see the section with the plane y = 0.");
+  b.choice("shape", shape, k_shapes)
+      .doc(
+          "Its form; 2-D scenes see the section with the plane y = 0. plate: without thickness, wet on both "
+          "sides; stl: a closed surface of triangles from a file, 3-D only.");
   b.key("size", size)
       .unit("m")
       .min(0)
-      .doc("Box: lengths along x, y, z; wedge: base, width, height. 2-D: the second is ignored.");
+      .doc(
+          "Box: lengths along x, y, z; wedge: base, width, height; plate: length along x and width along y "
+          "before it is turned. 2-D: the second is ignored.");
   b.key("apex", apex).unit("m").doc("Wedge: x of the apex; 0: above the middle of the base.");
   b.key("radius", radius).unit("m").min(0).doc("Of a cylinder or sphere.");
   b.key("length", length).unit("m").min(0).doc("Of a cylinder, along y before it is turned; 2-D: ignored.");
+  b.key("file", file).doc("Of shape stl, binary or text; relative to this file.");
+  b.key("scale", scale).unit("m").exclusive_min(0).doc("Length that a unit of an STL file stands for.");
   b.key("position", position).unit("m").doc("Of its origin: centre, or the middle of a wedge's base.");
   b.key("rotation", rotation).unit("deg").doc("About x, then y, then z, before it is placed.");
   b.choice("fluid", fluid, k_fluids).doc("Which side of its surface is wet; inside: a tank.");

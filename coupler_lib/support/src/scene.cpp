@@ -144,6 +144,8 @@ Scene Scene::from_file(const std::string& path, const std::vector<std::string>& 
   lasting.time = Time{};
   lasting.coupling.deadline = 0.0;
   scene.restart_digest = digest_of(lasting.resolved());
+  for (BodySpec& body : scene.bodies)
+    if (!body.file.empty()) body.file = document.resolve(body.file);
   return scene;
 }
 

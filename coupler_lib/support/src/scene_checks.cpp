@@ -118,6 +118,17 @@ void check_body(const Scene& s, Binder& b, std::size_t k) {
   for (std::size_t d = 0; d < 3; ++d)
     b.check(!sized || !s.active(d) || body.size[d] > 0.0, at + "size",
             "along " + k_axes[d] + " is " + metres(body.size[d]) + "; a box or wedge needs lengths above 0.");
+  if (body.shape == Shape::plate) {
+    b.check(body.size[0] > 0.0 && (s.dimension == 2 || body.size[1] > 0.0), at + "size",
+            "a plate needs a length and, in 3-D, a width above 0.");
+    b.check(body.fluid == BodySpec::Fluid::outside, at + "fluid",
+            "is inside, but a plate has no inside: it is wet on both sides. Use outside.");
+  }
+  if (body.shape == Shape::stl) {
+    b.check(!body.file.empty(), at + "file", "is missing; shape stl needs the file of its triangles.");
+    b.check(s.dimension == 3, at + "shape",
+            "stl is for 3-D scenes; 2-D ones have box, cylinder, wedge, plate.");
+  }
   const bool round = body.shape == Shape::cylinder || body.shape == Shape::sphere;
   b.check(!round || body.radius > 0.0, at + "radius", "a cylinder or sphere needs a radius above 0.");
   b.check(body.shape != Shape::cylinder || s.dimension == 2 || body.length > 0.0, at + "length",

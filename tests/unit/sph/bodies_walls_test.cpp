@@ -3,8 +3,7 @@
 #include <random>
 
 #include "bodies/wall_view.hpp"
-#include "bodies/walls.hpp"
-#include "clouds.hpp"
+#include "bodies_models.hpp"
 #include "littoral/error.hpp"
 #include "physics/dynamics.hpp"
 #include "physics/riemann_fluxes.hpp"
@@ -13,64 +12,14 @@
 namespace littoral::sph {
 namespace {
 
-using Spec = support::BodySpec;
+using namespace test;
 using Side = support::Scene::Side;
-
-constexpr double k_g = 0.3, k_c = 20.0;
-
-template <int D>
-Numerics<D> numerics_of_unit_lattice() {
-  Numerics<D> numerics;
-  numerics.eos = {1.0, k_c, 0.0};
-  numerics.gravity[D - 1] = -k_g;
-  numerics.spacing = 1.0;
-  numerics.kernel_radius = D == 2 ? 4.0 : 2.7;
-  numerics.skin = 0.3;
-  return numerics;
-}
-
-template <int D>
-DomainBox<D> open_box(double upper) {
-  DomainBox<D> box;
-  for (std::size_t d = 0; d < D; ++d) {
-    box.lower[d] = -6.0;
-    box.upper[d] = upper + 6.0;
-  }
-  return box;
-}
-
-/// A tank [0, n]^D open at the top, its walls reaching far above.
-Spec tank(int dimension, double n) {
-  Spec s;
-  s.name = "tank";
-  s.shape = Spec::Shape::box;
-  s.size = {n, dimension == 3 ? n : 0.0, 4 * n};
-  s.position = {0.5 * n, dimension == 3 ? 0.5 * n : 0.0, 2 * n};
-  s.fluid = Spec::Fluid::inside;
-  return s;
-}
-
-template <int D>
-std::unique_ptr<Walls<D>> walls_of(const std::vector<Spec>& specs, const Numerics<D>& numerics,
-                                   const DomainBox<D>& box) {
-  std::vector<Body> bodies;
-  for (const auto& spec : specs) bodies.emplace_back(spec, D == 2, 0.1);
-  return std::make_unique<Walls<D>>(std::move(bodies), numerics, box, Lattice<D>{{}, numerics.spacing});
-}
-
-template <int D>
-Particles<D> still_water(int n) {
-  std::array<int, D> cells;
-  cells.fill(n);
-  auto particles = test::cloud<D>(cells, 1.0);
-  for (std::size_t i = 0; i < particles.n_owned; ++i) particles.p[i] = k_g * (n - particles.x[D - 1][i]);
-  return particles;
-}
 
 /// Next to flat walls and in their corners the pairs must give what a complete lattice of water gives.
 template <int D>
-void expect_rest_as_in_the_bulk(int n) {
-  const auto numerics = numerics_of_unit_lattice<D>();
+void expect_rest_as_in_the_bulk(int n, WallStates states = WallStates::linear) {
+  auto numerics = numerics_of_unit_lattice<D>();
+  numerics.wall_states = states;
   auto particles = still_water<D>(n);
   Dynamics<D> dynamics(numerics, open_box<D>(n), nullptr,
                        walls_of<D>({tank(D, n)}, numerics, open_box<D>(n)));
@@ -94,6 +43,30 @@ void expect_rest_as_in_the_bulk(int n) {
 }
 TEST(BodiesWallsTest, WaterAtRestFeelsWallsAsWaterIn2D) { expect_rest_as_in_the_bulk<2>(14); }
 TEST(BodiesWallsTest, WaterAtRestFeelsWallsAsWaterIn3D) { expect_rest_as_in_the_bulk<3>(10); }
+TEST(BodiesWallsTest, WaterAtRestFeelsExtrapolatedDummiesAsWater) {
+  expect_rest_as_in_the_bulk<2>(14, WallStates::extrapolated);
+  expect_rest_as_in_the_bulk<3>(10, WallStates::extrapolated);
+}
+
+TEST(BodiesWallsTest, AForceByFormulaMeetsWallsAsGravityDoes) {
+  const auto rates = [](bool by_formula) {
+    auto numerics = numerics_of_unit_lattice<2>();
+    if (by_formula) {
+      numerics.gravity = {};
+      numerics.body_force = BodyForce<2>::Field{support::Formula(0.0), support::Formula("0*t-0.3")};
+    }
+    auto particles = still_water<2>(10);
+    Dynamics<2> dynamics(numerics, open_box<2>(10), nullptr,
+                         walls_of<2>({tank(2, 10)}, numerics, open_box<2>(10)));
+    dynamics.prepare(particles, 0.0, nullptr);
+    dynamics.right_hand_side(particles, 0.0);
+    return dynamics.rate();
+  };
+  const auto gravity = rates(false), formula = rates(true);
+  for (std::size_t i = 0; i < gravity.volume.size(); ++i)
+    for (std::size_t d = 0; d < 2; ++d)
+      EXPECT_NEAR(gravity.acceleration[d][i], formula.acceleration[d][i], 1e-13);
+}
 
 template <int D>
 void randomise(Particles<D>& particles) {
@@ -193,16 +166,17 @@ TEST(BodiesWallsTest, ParticlesThatEnteredSlightlyArePutBackAndTheBodyGetsTheirM
   auto particles = still_water<2>(10);
   auto walls = walls_of<2>({tank(2, 10)}, numerics, open_box<2>(10));
   walls->build(particles);
+  const auto start = particles.x;
   particles.x[1][0] = -0.2;
   particles.u[1][0] = -3.0;
-  EXPECT_EQ(walls->keep_out(particles, 0.5, 0.0), 1u);
+  EXPECT_EQ(walls->keep_out(particles, start, 0.5, 0.0), 1u);
   EXPECT_NEAR(particles.x[1][0], 0.2, 1e-12);
   EXPECT_NEAR(particles.u[1][0], 3.0, 1e-12);
   walls->begin_step(0.5);
   EXPECT_NEAR(walls->loads()[0].pressure[2], -particles.m[0] * 6.0 / 0.5, 1e-12);
   particles.x[1][0] = -0.7;
   try {
-    walls->keep_out(particles, 0.5, 1.5);
+    walls->keep_out(particles, start, 0.5, 1.5);
     FAIL() << "nothing was thrown";
   } catch (const StabilityError& error) {
     for (const char* part : {"t = 1.5", "particle 0", "'tank'", "0.7 m deep"})
@@ -222,6 +196,36 @@ TEST(BodiesWallsTest, WallsAreNoVoidAndDryWallsNoWater) {
         << particles.x[0][i] << ", " << particles.x[1][i];
     if (particles.x[1][i] > 11.0) {
       EXPECT_GT(particles.normal[1][i], 0.9);
+    }
+  }
+}
+
+TEST(BodiesWallsTest, ALatticeThatAnInclinedWallCutsIsEvenToTheShifting) {
+  // a wedge of 45 degrees, dummies on its very faces, its foot and its tip; then one of other slopes
+  for (const double apex : {0.0, 3.3}) {
+    auto numerics = numerics_of_unit_lattice<2>();
+    numerics.free_surface = true;
+    const int n = 20;
+    Spec wedge;
+    wedge.name = "wedge";
+    wedge.shape = Spec::Shape::wedge;
+    wedge.size = {16, 0, 8};
+    wedge.apex = apex;
+    wedge.position = {10, 0, 0};
+    auto walls = walls_of<2>({tank(2, n), wedge}, numerics, open_box<2>(n));
+    auto particles = still_water<2>(n);
+    std::vector<char> inside;
+    for (std::size_t i = 0; i < particles.n_owned; ++i)
+      inside.push_back(walls->inside(at<2>(particles.x, i)));
+    particles.remove(inside);
+    Walls<2>* seen = walls.get();
+    Dynamics<2> dynamics(numerics, open_box<2>(n), nullptr, std::move(walls));
+    dynamics.prepare(particles, 0.0, nullptr);
+    Shifting<2>(1.0, 1.0).compute(particles, dynamics.neighbors(), nullptr, &seen->support());
+    for (std::size_t i = 0; i < particles.n_owned; ++i) {
+      if (particles.x[1][i] > n - numerics.kernel_radius) continue;
+      EXPECT_NEAR(particles.shift[0][i], 0.0, 1e-12) << particles.x[0][i] << ", " << particles.x[1][i];
+      EXPECT_NEAR(particles.shift[1][i], 0.0, 1e-12) << particles.x[0][i] << ", " << particles.x[1][i];
     }
   }
 }
