@@ -1,8 +1,35 @@
 #include "boundary/exchange.hpp"
 
 #include "boundary/ghosts.hpp"
+#include "grid/loops.hpp"
 
 namespace littoral::fv {
+
+namespace {
+
+template <int D>
+std::vector<ConnectedGhosts> connected_ghosts(const std::vector<Block<D>>& blocks,
+                                              const JoinLinks<D>& links) {
+  std::vector<Field> cell;
+  std::vector<ConnectedGhosts> connected;
+  for (const auto& block : blocks) {
+    cell.emplace_back(block.extent.size, 0.0);
+    for_each_index<D>({}, block.extent.n, [&](const std::array<int, D>& index) {
+      cell.back()[static_cast<std::size_t>(block.extent.at(index))] = 1.0;
+    });
+    fill_scalar_ghosts(block, {}, ScalarGhosts::cell_data, cell.back());
+  }
+  links.copy([&](std::size_t b) -> Field& { return cell[b]; });
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    connected.emplace_back(cell[b].begin(), cell[b].end());
+    for_each_index<D>({}, blocks[b].extent.n, [&](const std::array<int, D>& index) {
+      connected.back()[static_cast<std::size_t>(blocks[b].extent.at(index))] = 0;
+    });
+  }
+  return connected;
+}
+
+}  // namespace
 
 template <int D>
 Exchange<D>::Exchange(const std::vector<Block<D>>& blocks, OversetLinks<D> overset)
@@ -13,6 +40,7 @@ Exchange<D>::Exchange(const std::vector<Block<D>>& blocks, OversetLinks<D> overs
   const std::vector<JoinSide<D>> joins = join_sides(blocks);
   links_ = JoinLinks<D>(joins, extents, k_ghost);
   irregular_ = IrregularFaces<D>(blocks, joins, links_);
+  connected_ = connected_ghosts(blocks, links_);
 }
 
 template <int D>
@@ -43,6 +71,38 @@ void Exchange<D>::states(const std::vector<Block<D>>& blocks, std::vector<State<
       for (std::size_t k = 0; k < D; ++k) to.u[k][g] = from.u[k][o];
     }
   });
+}
+
+template <int D>
+void Exchange<D>::scalars(const std::vector<Block<D>>& blocks, const std::vector<std::vector<Field*>>& fields,
+                          ScalarGhosts rule) const {
+  for (const auto& f : fields) {
+    if (rule == ScalarGhosts::level_set)
+      for (const auto& r : overset_.receivers) {
+        const auto to = static_cast<std::size_t>(r.cell);
+        if (blocks[r.block].status[to] != CellStatus::interpolated) continue;
+        double sum = 0.0;
+        for (std::size_t k = 0; k < r.weight.size(); ++k)
+          sum += r.weight[k] * (*f[r.donor_block[k]])[static_cast<std::size_t>(r.donor[k])];
+        (*f[r.block])[to] = sum;
+      }
+    const auto field_of = [&](std::size_t b) -> Field& { return *f[b]; };
+    if (rule == ScalarGhosts::level_set) {  // extrapolation looks across joins and periodic faces
+      for (std::size_t b = 0; b < blocks.size(); ++b)
+        fill_scalar_ghosts(blocks[b], connected_[b], ScalarGhosts::cell_data, *f[b]);
+      links_.copy(field_of, true);
+    }
+    for (std::size_t b = 0; b < blocks.size(); ++b) fill_scalar_ghosts(blocks[b], connected_[b], rule, *f[b]);
+    links_.copy(field_of);
+  }
+}
+
+template <int D>
+void Exchange<D>::scalar(const std::vector<Block<D>>& blocks, std::vector<Field>& field,
+                         ScalarGhosts rule) const {
+  std::vector<Field*> of;
+  for (Field& f : field) of.push_back(&f);
+  scalars(blocks, {of}, rule);
 }
 
 namespace {

@@ -39,12 +39,15 @@ class Exchange {
     irregular_.share_friction(blocks, fluid, q, r);
   }
   const IrregularFaces<D>& irregular() const { return irregular_; }
+  /// Ghosts of each block that stand for cells.
+  const std::vector<ConnectedGhosts>& connected() const { return connected_; }
   const JoinLinks<D>& links() const { return links_; }
   const OversetLinks<D>& overset() const { return overset_; }
   const ClosedContour<D>& closed_contour() const { return contour_; }
 
  private:
   JoinLinks<D> links_;
+  std::vector<ConnectedGhosts> connected_;  // [block]
   IrregularFaces<D> irregular_;
   OversetLinks<D> overset_;
   ClosedContour<D> contour_;

@@ -18,9 +18,13 @@ enum class ScalarGhosts : std::uint8_t { level_set, cell_data };
 template <int D>
 void evaluate_surface_windows(Block<D>& block, double t);
 
-/// Sets the ghosts of one block, edges and corners included, directions in turn; not those behind joins.
-/// comm local
+/// Marks a block's ghosts that stand for cells: 1 behind joins and periodic faces; 0 elsewhere.
+using ConnectedGhosts = std::vector<std::uint8_t>;
+
+/// Sets the ghosts of one block, edges and corners included, directions in turn; not those behind joins, of
+/// which the ones beyond faces are read. comm local
 template <int D>
-void fill_scalar_ghosts(const Block<D>& block, ScalarGhosts rule, Field& field);
+void fill_scalar_ghosts(const Block<D>& block, const ConnectedGhosts& connected, ScalarGhosts rule,
+                        Field& field);
 
 }  // namespace littoral::fv

@@ -34,13 +34,22 @@ class VelocityExtension {
 };
 
 /// u_s [m/s]: the velocity of the closest surface point, for the cells of a band and ghosts that stand for
-/// them. Layer 0 interpolates u (quadratic along the grid's directions, in water and continued air) at its
-/// foot on the surface of phi; the layers beyond carry that along the normal. phi may have moved on since the
-/// band and the patches pre u is continued into two layers of air at least, ghosts of u and phi current comm
-/// exchange of u_s once a layer
+/// them. Layer 0 interpolates u and its gradient (quadratic along the grid's directions, in water and
+/// continued air) at its foot on the surface of phi; a cell further out takes both from where it has its
+/// patch, and u_s = u + G (foot - base): second order in every layer.
 template <int D>
-void surface_velocity(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange, const Band<D>& band,
-                      const SurfacePatches<D>& patches, const std::vector<Field>& phi,
-                      const std::vector<const VectorField<D>*>& u, std::vector<VectorField<D>>& u_s);
+class SurfaceVelocity {
+ public:
+  /// phi: may have moved on since the band and the patches
+  /// pre u is continued into two layers of air at least, ghosts of u and phi current
+  /// comm exchange of u and its gradient at the bases once a layer, of u_s once
+  void follow(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange, const Band<D>& band,
+              const SurfacePatches<D>& patches, const std::vector<Field>& phi,
+              const std::vector<const VectorField<D>*>& u, std::vector<VectorField<D>>& u_s);
+
+ private:
+  std::vector<VectorField<D>> base_;                     // [block] [m/s] u at the patch's base
+  std::vector<std::array<VectorField<D>, D>> gradient_;  // [block][component] [1/s] there
+};
 
 }  // namespace littoral::fv

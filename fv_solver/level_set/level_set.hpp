@@ -20,7 +20,7 @@ struct LevelSetOptions {
 
 /// What a scene with a free surface holds beside p and u; nothing of it exists in other scenes. The functions
 /// of this folder say what is done with it; the order of a step is the stepper's:
-///   inner iteration  extend velocity, surface_velocity, transport       (phi goes with the flow, no lag)
+///   inner iteration  extension, follower, transport       (phi goes with the flow, no lag)
 ///   end of the step  reinitialise, extend the levels that the next step reads
 template <int D>
 struct LevelSet {
@@ -31,6 +31,7 @@ struct LevelSet {
   Band<D> band;
   SurfacePatches<D> patches;
   VelocityExtension<D> extension;
+  SurfaceVelocity<D> follower;  // fills surface_velocity
 
   /// phi from a function that is negative in water and zero on the surface, at time t: the signed distance in
   /// the band. pre evaluate_surface_windows. throws ConfigError naming the place where it is not finite

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "grid/small_matrix.hpp"
@@ -39,8 +40,7 @@ bool own_patch(const Block<D>& block, const Band<D>& band, const Field& phi, std
                SurfacePatch<D>& patch);
 
 /// For each cell of a band the patch of the surface nearest to it. Cells of layer 0 have their
-/// own; the others take, layer by layer, of their neighbours' patches the one with the nearest base. Cells
-/// whose phi comes from elsewhere (interpolated, fringe) also look at the one that phi and its gradient give.
+/// own; the others take, layer by layer, of their neighbours' patches the one with the nearest base.
 template <int D>
 class SurfacePatches {
  public:
@@ -53,6 +53,13 @@ class SurfacePatches {
     return known_[block][static_cast<std::size_t>(cell)] != 0.0;
   }
   SurfacePatch<D> at(std::size_t block, std::ptrdiff_t cell) const;
+  /// The neighbour from which a cell beyond layer 0 has its patch.
+  std::ptrdiff_t source(const Block<D>& block, std::size_t b, std::ptrdiff_t cell) const {
+    int code = source_[b][static_cast<std::size_t>(cell)];
+    std::ptrdiff_t at = cell;
+    for (std::size_t d = 0; d < D; ++d, code /= 3) at += (code % 3 - 1) * block.extent.stride[d];
+    return at;
+  }
   /// Of a cell: its foot on its patch, as far along the surface as the cell is wide.
   Foot<D> foot(const Block<D>& block, std::size_t b, std::ptrdiff_t cell) const;
 
@@ -64,6 +71,7 @@ class SurfacePatches {
 
   std::vector<std::array<Field, k_numbers>> numbers_;  // [block][number][cell]
   std::vector<Field> known_;                           // [block] 1 where a cell has a patch
+  std::vector<std::vector<std::uint8_t>> source_;      // [block] sum_d 3^d (step to the source + 1)
 };
 
 }  // namespace littoral::fv

@@ -1,29 +1,8 @@
 #include "physics/velocity_gradient.hpp"
 
+#include "grid/small_matrix.hpp"
+
 namespace littoral::fv {
-namespace {
-
-template <int D>
-std::array<std::array<double, D>, D> inverse(const std::array<std::array<double, D>, D>& a) {
-  std::array<std::array<double, D>, D> b;
-  if constexpr (D == 2) {
-    const double det = a[0][0] * a[1][1] - a[0][1] * a[1][0];
-    b = {{{a[1][1] / det, -a[0][1] / det}, {-a[1][0] / det, a[0][0] / det}}};
-  } else {
-    double det = 0.0;
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < 3; ++j) {
-        const std::size_t i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-        b[j][i] = a[i1][j1] * a[i2][j2] - a[i1][j2] * a[i2][j1];  // cofactor
-      }
-    for (std::size_t j = 0; j < 3; ++j) det += a[0][j] * b[j][0];
-    for (auto& row : b)
-      for (double& value : row) value /= det;
-  }
-  return b;
-}
-
-}  // namespace
 
 template <int D>
 VelocityGradient<D> velocity_gradient(const Block<D>& block, const State<D>& q, std::ptrdiff_t c) {

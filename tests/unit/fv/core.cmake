@@ -6,6 +6,7 @@ littoral_gtest(
           generators_test.cpp
           grid_config_test.cpp grid_parts_test.cpp
           joins_test.cpp
+          level_set_test.cpp
           measures_test.cpp
           metrics_test.cpp
           openings_test.cpp

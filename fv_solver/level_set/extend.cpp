@@ -1,0 +1,159 @@
+#include "level_set/extend.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "grid/loops.hpp"
+
+namespace littoral::fv {
+namespace {
+
+constexpr double k_beyond = 127.0;  // mark of cells that no pass has reached
+
+/// body(neighbour) for the 3^D - 1 cells around c that are cells of the grid, or ghosts that stand for one.
+template <int D, class Body>
+void for_each_neighbour(const Block<D>& block, const Band<D>& band, std::size_t b, std::ptrdiff_t c,
+                        Body&& body) {
+  std::array<int, D> lower, upper;
+  lower.fill(-1);
+  upper.fill(2);
+  for_each_index<D>(lower, upper, [&](const std::array<int, D>& step) {
+    std::ptrdiff_t other = c;
+    for (std::size_t d = 0; d < D; ++d) other += step[d] * block.extent.stride[d];
+    if (other != c && band.stands_for_cell(b, other)) body(other);
+  });
+}
+
+template <int D>
+SpaceVector<D> between(const Block<D>& block, std::ptrdiff_t from, std::ptrdiff_t to) {
+  SpaceVector<D> r;
+  for (std::size_t k = 0; k < D; ++k)
+    r[k] = block.centre[k][static_cast<std::size_t>(to)] - block.centre[k][static_cast<std::size_t>(from)];
+  return r;
+}
+
+/// Inverse of a symmetric matrix of least squares; directions in which there is no neighbour get no gradient.
+template <int D>
+SpaceMatrix<D> inverse_of_squares(SpaceMatrix<D> m) {
+  double trace = 0.0;
+  for (std::size_t k = 0; k < D; ++k) trace += m[k][k];
+  double det;
+  if constexpr (D == 2)
+    det = m[0][0] * m[1][1] - m[0][1] * m[1][0];
+  else
+    det = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+          m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+          m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+  constexpr double k_degenerate = 1e-5, k_ridge = 1e-3;  // of the mean eigenvalue's power D; of the trace
+  if (det < k_degenerate * std::pow(trace / D, D))
+    for (std::size_t k = 0; k < D; ++k) m[k][k] += k_ridge * trace;
+  return inverse<D>(m);
+}
+
+}  // namespace
+
+template <int D>
+void VelocityExtension<D>::gradients_of_water(const std::vector<Block<D>>& blocks, const Band<D>& band,
+                                              const std::vector<VectorField<D>*>& u) {
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    const Block<D>& block = blocks[b];
+    const auto cells = band.cells(b);
+#pragma omp parallel for schedule(static)
+    for (std::ptrdiff_t i = 0; i < cells.size(); ++i) {
+      const std::ptrdiff_t c = cells[i];
+      if (reached_[b][static_cast<std::size_t>(c)] != 0.0) continue;
+      SpaceMatrix<D> squares{}, sums{};  // sums[component][direction]
+      for_each_neighbour<D>(block, band, b, c, [&](std::ptrdiff_t other) {
+        const auto o = static_cast<std::size_t>(other);
+        if (reached_[b][o] != 0.0) return;
+        const SpaceVector<D> r = between(block, c, other);
+        const double w = 1.0 / dot(r, r);
+        for (std::size_t k = 0; k < D; ++k)
+          for (std::size_t l = 0; l < D; ++l) {
+            squares[k][l] += w * r[k] * r[l];
+            sums[k][l] += w * ((*u[b])[k][o] - (*u[b])[k][static_cast<std::size_t>(c)]) * r[l];
+          }
+      });
+      double trace = 0.0;
+      for (std::size_t k = 0; k < D; ++k) trace += squares[k][k];
+      SpaceMatrix<D> solved{};
+      if (trace > 0.0) {
+        const SpaceMatrix<D> inverse = inverse_of_squares<D>(squares);
+        for (std::size_t k = 0; k < D; ++k) solved[k] = times(inverse, sums[k]);
+      }
+      for (std::size_t k = 0; k < D; ++k)
+        for (std::size_t l = 0; l < D; ++l) gradient_[b][k][l][static_cast<std::size_t>(c)] = solved[k][l];
+    }
+  }
+}
+
+template <int D>
+void VelocityExtension<D>::extend(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange,
+                                  const Band<D>& band, const SurfacePatches<D>& patches,
+                                  const std::vector<Field>& phi, int layers,
+                                  const std::vector<VectorField<D>*>& u) {
+  const std::size_t n = blocks.size();
+  gradient_.resize(n);
+  reached_.resize(n);
+  std::vector<std::vector<Field*>> fields(D + D * D + 1);
+  for (std::size_t b = 0; b < n; ++b) {
+    reached_[b].resize(phi[b].size());
+    for (std::size_t c = 0; c < phi[b].size(); ++c) reached_[b][c] = phi[b][c] < 0.0 ? 0.0 : k_beyond;
+    std::size_t number = 0;
+    fields[number++].push_back(&reached_[b]);
+    for (std::size_t k = 0; k < D; ++k) {
+      fields[number++].push_back(&(*u[b])[k]);
+      for (std::size_t l = 0; l < D; ++l) {
+        gradient_[b][k][l].resize(phi[b].size());
+        fields[number++].push_back(&gradient_[b][k][l]);
+      }
+    }
+  }
+  gradients_of_water(blocks, band, u);
+  for (int pass = 1; pass <= layers; ++pass) {
+    exchange.scalars(blocks, fields, ScalarGhosts::cell_data);
+    for (std::size_t b = 0; b < n; ++b) {
+      const Block<D>& block = blocks[b];
+      const auto cells = band.cells(b);
+#pragma omp parallel for schedule(static)
+      for (std::ptrdiff_t i = 0; i < cells.size(); ++i) {
+        const std::ptrdiff_t c = cells[i];
+        const auto at = static_cast<std::size_t>(c);
+        if (reached_[b][at] < pass || !patches.has(b, c)) continue;
+        const SpaceVector<D> normal = patches.foot(block, b, c).normal;
+        double sum = 0.0;
+        SpaceVector<D> value{};
+        SpaceMatrix<D> gradient{};
+        for_each_neighbour<D>(block, band, b, c, [&](std::ptrdiff_t other) {
+          const auto o = static_cast<std::size_t>(other);
+          if (reached_[b][o] >= pass) return;
+          const SpaceVector<D> r = between(block, other, c);
+          const double r2 = dot(r, r), along = std::max(dot(r, normal), 0.0);
+          constexpr double k_aside = 1e-2;  // of the weight straight below: where nothing else is there
+          const double w = (along * along / r2 + k_aside) / r2;
+          sum += w;
+          for (std::size_t k = 0; k < D; ++k) {
+            double there = (*u[b])[k][o];
+            for (std::size_t l = 0; l < D; ++l) {
+              there += gradient_[b][k][l][o] * r[l];
+              gradient[k][l] += w * gradient_[b][k][l][o];
+            }
+            value[k] += w * there;
+          }
+        });
+        if (sum == 0.0) continue;
+        for (std::size_t k = 0; k < D; ++k) {
+          (*u[b])[k][at] = value[k] / sum;
+          for (std::size_t l = 0; l < D; ++l) gradient_[b][k][l][at] = gradient[k][l] / sum;
+        }
+        reached_[b][at] = pass;
+      }
+    }
+  }
+  exchange.scalars(blocks, fields, ScalarGhosts::cell_data);
+}
+
+template class VelocityExtension<2>;
+template class VelocityExtension<3>;
+
+}  // namespace littoral::fv
