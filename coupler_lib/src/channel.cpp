@@ -6,6 +6,7 @@
 
 #include "littoral/error.hpp"
 #include "patience.hpp"
+#include "probe.hpp"
 #include "validate.hpp"
 
 namespace littoral::coupler {
@@ -50,16 +51,11 @@ Channel::Channel(MPI_Comm intercomm, std::string partner, double deadline)
 }
 
 void Channel::look_for_notice() {
-  int here = 0;
-  MPI_Message handle;
-  MPI_Status status;
-  MPI_Improbe(MPI_ANY_SOURCE, k_tag_notice, intercomm_, &here, &handle, &status);
-  if (!here) return;
-  int count = 0;
-  MPI_Get_count(&status, MPI_CHAR, &count);
-  Bytes message(static_cast<std::size_t>(count));
-  MPI_Mrecv(message.data(), count, MPI_CHAR, &handle, &status);
-  const Notice notice = unpack_notice(message.data(), message.size(), who(status.MPI_SOURCE));
+  auto found = probe(MPI_ANY_SOURCE, k_tag_notice, intercomm_);
+  if (!found) return;
+  Bytes message(static_cast<std::size_t>(found->bytes));
+  MPI_Mrecv(message.data(), found->bytes, MPI_CHAR, &found->handle, MPI_STATUS_IGNORE);
+  const Notice notice = unpack_notice(message.data(), message.size(), who(found->rank));
   (notice.kind == Kind::abort ? abort_ : farewell_) = notice;
 }
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "littoral/error.hpp"
+#include "probe.hpp"
 #include "validate.hpp"
 
 namespace littoral::coupler {
@@ -65,20 +66,15 @@ bool Incoming::progress() {
 
 /// A message or the header of a long one has come: checks it, takes it or asks for the rest.
 void Incoming::begin() {
-  int yes = 0;
-  MPI_Message handle;
-  MPI_Status status;
-  MPI_Improbe(rank_, k_tag_message, intercomm_, &yes, &handle, &status);
-  if (!yes) return;
-  int count = 0;
-  MPI_Get_count(&status, MPI_CHAR, &count);
-  buffer_.resize(static_cast<std::size_t>(count));
+  auto found = probe(rank_, k_tag_message, intercomm_);
+  if (!found) return;
+  buffer_.resize(static_cast<std::size_t>(found->bytes));
   if (buffer_.size() != sizeof(Header)) {
-    MPI_Imrecv(buffer_.data(), count, MPI_CHAR, &handle, &request_);
+    MPI_Imrecv(buffer_.data(), found->bytes, MPI_CHAR, &found->handle, &request_);
     state_ = State::whole;
     return;
   }
-  MPI_Mrecv(buffer_.data(), count, MPI_CHAR, &handle, &status);
+  MPI_Mrecv(buffer_.data(), found->bytes, MPI_CHAR, &found->handle, MPI_STATUS_IGNORE);
   header_ = checked_header_of_long_message(buffer_.data(), expected_, who_);
   if (!slots.empty()) refuse_unless_due(header_.bytes, slots, who_, describe(expected_));
   if (header_.bytes == 0) {
@@ -96,27 +92,22 @@ void Incoming::take_whole() {
 }
 
 void Incoming::begin_piece() {
-  int yes = 0;
-  MPI_Message handle;
-  MPI_Status status;
-  MPI_Improbe(rank_, k_tag_rest, intercomm_, &yes, &handle, &status);
-  if (!yes) return;
-  int count = 0;
-  MPI_Get_count(&status, MPI_CHAR, &count);
-  const std::uint64_t found = static_cast<std::uint64_t>(count);
+  auto found = probe(rank_, k_tag_rest, intercomm_);
+  if (!found) return;
+  const auto bytes = static_cast<std::uint64_t>(found->bytes);
   const std::uint64_t due = slots.empty() ? header_.bytes : slots[piece_].bytes;
-  if (found != due)
-    throw CouplingError(who_ + " sent " + (found < due ? "a truncated" : "an oversized") + " message (" +
+  if (bytes != due)
+    throw CouplingError(who_ + " sent " + (bytes < due ? "a truncated" : "an oversized") + " message (" +
                         name(header_.kind) + "): it announces " + std::to_string(due) + " bytes and holds " +
-                        std::to_string(found));
+                        std::to_string(bytes));
   char* at = nullptr;
   if (slots.empty()) {
-    buffer_.resize(sizeof(Header) + static_cast<std::size_t>(count));
+    buffer_.resize(sizeof(Header) + bytes);
     at = buffer_.data() + sizeof(Header);
   } else {
     at = slots[piece_].at;
   }
-  MPI_Imrecv(at, count, MPI_CHAR, &handle, &request_);
+  MPI_Imrecv(at, found->bytes, MPI_CHAR, &found->handle, &request_);
   state_ = State::piece;
 }
 
