@@ -302,8 +302,8 @@ void Solver<D>::write_summary(double wall_time) {
   const double loops =
       seconds[static_cast<std::size_t>(Phase::gradients)] + seconds[static_cast<std::size_t>(Phase::fluxes)];
   const double pairs_per_second = loops > 0.0 ? static_cast<double>(work.pairs) / loops : 0.0;
-  const double particle_steps_per_second =
-      static_cast<double>(work.particle_steps) / std::max(1e-9, wall_time);
+  const double waited = seconds.back(), worked = wall_time - waited;
+  const double particle_steps_per_second = static_cast<double>(work.particle_steps) / std::max(1e-9, worked);
   summary.results = {{"particles", static_cast<double>(n_particles_)},
                      {"steps", static_cast<double>(work.steps)},
                      {"end_time", time_},
@@ -320,9 +320,11 @@ void Solver<D>::write_summary(double wall_time) {
   if (ranks_ && ranks_->rank() != 0) return;
   summary.write(folder_ + "/summary.json");
   std::ostringstream text;
-  text << work.steps << " steps in " << wall_time << " s: " << particle_steps_per_second * 1e-3
-       << " thousand particle-steps/s, " << pairs_per_second * 1e-6
-       << " million pairs/s (gradients and fluxes), lists built " << work.list_builds << " times";
+  text << work.steps << " steps in " << worked << " s";
+  if (partner_) text << " and " << waited << " s of waiting";
+  text << ": " << particle_steps_per_second * 1e-3 << " thousand particle-steps/s, "
+       << pairs_per_second * 1e-6 << " million pairs/s (gradients and fluxes), lists built "
+       << work.list_builds << " times";
   log_.info(text.str());
   if (work.mirrored_back > 0)
     log_.warn(
