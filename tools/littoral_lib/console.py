@@ -5,6 +5,8 @@ import shutil
 import sys
 import time
 
+from .launch import OPEN_MPI_OWN
+
 PLAIN_INTERVAL = 10.0  # [s] between two lines of a program where the output is no terminal
 
 
@@ -25,6 +27,8 @@ class Console:
         self._keep(text)
         match = re.match(r"\W*(sph|fv)(_solver)?\b", text)
         program = match.group(1) if match else None
+        if OPEN_MPI_OWN.match(text):
+            return
         if re.search(r"\b(warn(ing)?|error)\b", text, re.IGNORECASE):
             self._stand(text)
         elif program in self.programs:

@@ -10,6 +10,7 @@ import time
 from . import programs
 from .settings import route
 
+OPEN_MPI_OWN = re.compile(r"\[[^\]\s]+:\d+\] ")  # "[node:pid] ...": what its parts say of themselves
 GRACE = 5.0  # [s] a job may take to end after it was asked to, before it is killed
 
 
@@ -113,12 +114,11 @@ def killed(lines, ranks):
 
 
 def own_words(lines):
-    """The programs' own lines: without blank ones, mpirun's boxes between rows of dashes, and what the parts of
-    Open MPI say of themselves ("[node:pid] ...")."""
+    """The programs' own lines: without blank ones, mpirun's boxes between rows of dashes and Open MPI's own."""
     kept, in_box = [], False
     for text in lines:
         if re.fullmatch(r"-{20,}", text.strip()):
             in_box = not in_box
-        elif not in_box and text.strip() and not re.match(r"\[[^\]\s]+:\d+\]", text):
+        elif not in_box and text.strip() and not OPEN_MPI_OWN.match(text):
             kept.append(text)
     return kept
