@@ -9,7 +9,7 @@
 
 namespace littoral::coupler {
 
-inline constexpr std::uint32_t k_protocol_version = 1;
+inline constexpr std::uint32_t k_protocol_version = 2;  // 2: donors and samples column by column
 
 /// What every rank says first, in one allgather over all programs of the job. Plain data.
 struct Greeting {
