@@ -7,6 +7,9 @@
 
 namespace littoral::fv {
 
+/// Fewer cells than this are not worth a team of threads.
+inline constexpr std::ptrdiff_t k_cells_for_threads = 1000;
+
 /// Cells near the surface, in layers: layer 0 has a neighbour across a face on the other side of phi = 0,
 /// layer k + 1 has one in layer k, on both sides of the surface, through joins and periodic faces. Found from
 /// the signs of phi, never from |phi|, so it is right whatever the gradient of phi is. Blanked cells belong

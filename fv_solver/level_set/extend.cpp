@@ -58,7 +58,7 @@ void VelocityExtension<D>::gradients_of_water(const std::vector<Block<D>>& block
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const Block<D>& block = blocks[b];
     const auto cells = band.cells(b);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (cells.size() > k_cells_for_threads)
     for (std::ptrdiff_t i = 0; i < cells.size(); ++i) {
       const std::ptrdiff_t c = cells[i];
       if (reached_[b][static_cast<std::size_t>(c)] != 0.0) continue;
@@ -115,12 +115,12 @@ void VelocityExtension<D>::extend(const std::vector<Block<D>>& blocks, const Exc
     for (std::size_t b = 0; b < n; ++b) {
       const Block<D>& block = blocks[b];
       const auto cells = band.cells(b);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (cells.size() > k_cells_for_threads)
       for (std::ptrdiff_t i = 0; i < cells.size(); ++i) {
         const std::ptrdiff_t c = cells[i];
         const auto at = static_cast<std::size_t>(c);
         if (reached_[b][at] < pass || !patches.has(b, c)) continue;
-        const SpaceVector<D> normal = patches.foot(block, b, c).normal;
+        const SpaceVector<D> normal = patches.foot(b, i).normal;
         double sum = 0.0;
         SpaceVector<D> value{};
         SpaceMatrix<D> gradient{};

@@ -236,11 +236,6 @@ SurfacePatch<D> SurfacePatches<D>::at(std::size_t block, std::ptrdiff_t cell) co
 }
 
 template <int D>
-Foot<D> SurfacePatches<D>::foot(const Block<D>& block, std::size_t b, std::ptrdiff_t cell) const {
-  return closest_point(at(b, cell), diagonal(block, cell));
-}
-
-template <int D>
 void SurfacePatches<D>::put(std::size_t block, std::ptrdiff_t cell, const SurfacePatch<D>& patch) {
   auto& f = numbers_[block];
   const auto c = static_cast<std::size_t>(cell);
@@ -269,17 +264,20 @@ void SurfacePatches<D>::build(const std::vector<Block<D>>& blocks, const Exchang
   numbers_.resize(blocks.size());
   known_.resize(blocks.size());
   source_.resize(blocks.size());
+  feet_.resize(blocks.size());
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     for (Field& f : numbers_[b]) f.resize(blocks[b].extent.size);
     known_[b].assign(blocks[b].extent.size, 0.0);
     source_[b].resize(blocks[b].extent.size);
+    feet_[b].assign(static_cast<std::size_t>(band.cells(b).size()), {});
   }
   for (int layer = 0; layer < band.layers(); ++layer) {
     if (layer > 0) exchange_all(blocks, exchange);
     for (std::size_t b = 0; b < blocks.size(); ++b) {
       const Block<D>& block = blocks[b];
       const auto cells = band.cells(b, layer, layer + 1);
-#pragma omp parallel for schedule(static)
+      const std::ptrdiff_t before = cells.begin() - band.cells(b).begin();
+#pragma omp parallel for schedule(static) if (cells.size() > k_cells_for_threads)
       for (std::ptrdiff_t i = 0; i < cells.size(); ++i) {
         const std::ptrdiff_t c = cells[i];
         SurfacePatch<D> best;
@@ -306,7 +304,9 @@ void SurfacePatches<D>::build(const std::vector<Block<D>>& blocks, const Exchang
             source_[b][static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(code);
           });
         }
-        if (least < std::numeric_limits<double>::infinity()) put(b, c, best);
+        if (!(least < std::numeric_limits<double>::infinity())) continue;
+        put(b, c, best);
+        feet_[b][static_cast<std::size_t>(before + i)] = closest_point(best, diagonal(block, c));
       }
     }
   }

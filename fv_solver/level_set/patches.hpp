@@ -60,8 +60,11 @@ class SurfacePatches {
     for (std::size_t d = 0; d < D; ++d, code /= 3) at += (code % 3 - 1) * block.extent.stride[d];
     return at;
   }
-  /// Of a cell: its foot on its patch, as far along the surface as the cell is wide.
-  Foot<D> foot(const Block<D>& block, std::size_t b, std::ptrdiff_t cell) const;
+  /// Foot of the i-th cell of band.cells(block) on its patch, as far along the surface as the cell is wide;
+  /// of length 0 where the cell has none.
+  const Foot<D>& foot(std::size_t block, std::ptrdiff_t i) const {
+    return feet_[block][static_cast<std::size_t>(i)];
+  }
 
  private:
   static constexpr std::size_t k_curvatures = D * (D + 1) / 2;
@@ -71,6 +74,7 @@ class SurfacePatches {
 
   std::vector<std::array<Field, k_numbers>> numbers_;  // [block][number][cell]
   std::vector<Field> known_;                           // [block] 1 where a cell has a patch
+  std::vector<std::vector<Foot<D>>> feet_;             // [block] in the order of band.cells(block)
   std::vector<std::vector<std::uint8_t>> source_;      // [block] sum_d 3^d (step to the source + 1)
 };
 

@@ -70,16 +70,19 @@ void reinitialise(const std::vector<Block<D>>& blocks, const Exchange<D>& exchan
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const Block<D>& block = blocks[b];
     double* f = phi[b].data();
+    const auto set = [&](std::ptrdiff_t c, double distance) {
+      const CellStatus status = block.status[static_cast<std::size_t>(c)];
+      if (status == CellStatus::fringe || status == CellStatus::blanked) return;
+      f[c] = f[c] < 0.0 ? -distance : distance;
+    };
     for_each_index<D>({}, block.extent.n, [&](const std::array<int, D>& index) {
       const std::ptrdiff_t c = block.extent.at(index);
-      const int layer = band.layer(b, c);
-      const CellStatus status = block.status[static_cast<std::size_t>(c)];
-      if (layer < first || status == CellStatus::fringe || status == CellStatus::blanked) return;
-      const double distance = layer < layers && patches.has(b, c)
-                                  ? std::abs(patches.foot(block, b, c).distance)
-                                  : layers * size(block, c);
-      f[c] = f[c] < 0.0 ? -distance : distance;
+      if (band.layer(b, c) == Band<D>::k_none) set(c, layers * size(block, c));
     });
+    const auto cells = band.cells(b);
+    for (std::ptrdiff_t i = 0; i < cells.size(); ++i)
+      if (band.layer(b, cells[i]) >= first && patches.has(b, cells[i]))
+        set(cells[i], std::abs(patches.foot(b, i).distance));
   }
   exchange.scalar(blocks, phi, ScalarGhosts::level_set);
   if (history != nullptr) carry_history(blocks, exchange, was, band, phi, *history);

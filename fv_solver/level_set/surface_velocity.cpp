@@ -89,7 +89,8 @@ void SurfaceVelocity<D>::follow(const std::vector<Block<D>>& blocks, const Excha
     for (std::size_t b = 0; b < blocks.size(); ++b) {
       const Block<D>& block = blocks[b];
       const auto cells = band.cells(b, layer, layer + 1);
-#pragma omp parallel for schedule(static)
+      const std::ptrdiff_t before = cells.begin() - band.cells(b).begin();
+#pragma omp parallel for schedule(static) if (cells.size() > k_cells_for_threads)
       for (std::ptrdiff_t i = 0; i < cells.size(); ++i) {
         const std::ptrdiff_t c = cells[i];
         const auto at = static_cast<std::size_t>(c);
@@ -101,7 +102,7 @@ void SurfaceVelocity<D>::follow(const std::vector<Block<D>>& blocks, const Excha
           local = interpolate<D>(block, *u[b], c, patch.to_base);
         } else if (patches.has(b, c)) {
           const auto from = static_cast<std::size_t>(patches.source(block, b, c));
-          const SpaceVector<D> base = patches.at(b, c).to_base, foot = patches.foot(block, b, c).to;
+          const SpaceVector<D> base = patches.at(b, c).to_base, foot = patches.foot(b, before + i).to;
           for (std::size_t k = 0; k < D; ++k) {
             aside[k] = foot[k] - base[k];
             local.u[k] = base_[b][k][from];

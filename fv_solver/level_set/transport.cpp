@@ -37,10 +37,11 @@ double advection(const Block<D>& block, const double* phi, const SpaceVector<D>&
 
 bool moves(CellStatus status) { return status == CellStatus::computed || status == CellStatus::forced; }
 
-/// R of one cell [m/s] and, in `diagonal`, what a sweep divides by [1/s].
+/// R of the at-th cell of the band [m/s] and, in `diagonal`, what a sweep divides by [1/s].
 template <int D>
 double cell_residual(const Block<D>& block, std::size_t b, const SurfaceStep<D>& step,
-                     const VectorField<D>& u_s, const double* phi, std::ptrdiff_t c, double& diagonal) {
+                     const VectorField<D>& u_s, const double* phi, std::ptrdiff_t at, double& diagonal) {
+  const std::ptrdiff_t c = step.band.cells(b)[at];
   const auto i = static_cast<std::size_t>(c);
   const SpaceVector<D> u = velocity<D>(u_s, c);
   const std::array<double, D> rate = index_velocity<D>(block, u_s, c);
@@ -52,7 +53,7 @@ double cell_residual(const Block<D>& block, std::size_t b, const SurfaceStep<D>&
   if (step.band.layer(b, c) + 2 < step.band.layers())
     r += advection<D>(block, phi, u, rate, c);
   else if (step.patches.has(b, c))
-    r += dot(u, step.patches.foot(block, b, c).normal);
+    r += dot(u, step.patches.foot(b, at).normal);
   if (!step.forcing.empty() && step.forcing[b].active()) {
     const SurfaceForcing& f = step.forcing[b];
     r += f.rate[i] * (phi[c] - f.target[i]);
@@ -83,11 +84,12 @@ void transport_residual(const std::vector<Block<D>>& blocks, const SurfaceStep<D
   r.resize(blocks.size());
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     r[b].assign(blocks[b].extent.size, 0.0);
-    for (const std::ptrdiff_t c : step.band.cells(b)) {
-      if (!moves(blocks[b].status[static_cast<std::size_t>(c)])) continue;
+    const auto cells = step.band.cells(b);
+    for (std::ptrdiff_t i = 0; i < cells.size(); ++i) {
+      const auto c = static_cast<std::size_t>(cells[i]);
+      if (!moves(blocks[b].status[c])) continue;
       double diagonal = 0.0;
-      r[b][static_cast<std::size_t>(c)] =
-          cell_residual<D>(blocks[b], b, step, surface_velocity[b], phi[b].data(), c, diagonal);
+      r[b][c] = cell_residual<D>(blocks[b], b, step, surface_velocity[b], phi[b].data(), i, diagonal);
     }
   }
 }
@@ -103,12 +105,11 @@ double transport(const std::vector<Block<D>>& blocks, const Exchange<D>& exchang
       const auto cells = step.band.cells(b);
       change.assign(static_cast<std::size_t>(cells.size()), 0.0);
       double* f = phi[b].data();
-#pragma omp parallel for schedule(static) reduction(max : largest)
+#pragma omp parallel for schedule(static) if (cells.size() > k_cells_for_threads) reduction(max : largest)
       for (std::ptrdiff_t i = 0; i < cells.size(); ++i) {
-        const std::ptrdiff_t c = cells[i];
-        if (!moves(blocks[b].status[static_cast<std::size_t>(c)])) continue;
+        if (!moves(blocks[b].status[static_cast<std::size_t>(cells[i])])) continue;
         double diagonal = 0.0;
-        const double r = cell_residual<D>(blocks[b], b, step, surface_velocity[b], f, c, diagonal);
+        const double r = cell_residual<D>(blocks[b], b, step, surface_velocity[b], f, i, diagonal);
         largest = std::max(largest, std::abs(r));
         change[static_cast<std::size_t>(i)] = r / diagonal;
       }
