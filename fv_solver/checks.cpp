@@ -25,31 +25,6 @@ std::string place(const Block<D>& block, const std::array<int, D>& index) {
   return "block '" + block.name + "', cell at " + text;
 }
 
-/// Between components that meet, one must take values from the other.
-template <int D>
-void check_apart(const std::vector<Block<D>>& blocks) {
-  const std::vector<std::size_t> group = components(blocks);
-  std::set<std::size_t> receiving;  // components with interpolated cells
-  for (std::size_t b = 0; b < blocks.size(); ++b)
-    for (const CellStatus status : blocks[b].status)
-      if (status == CellStatus::interpolated) receiving.insert(group[b]);
-  for (std::size_t a = 0; a < blocks.size(); ++a)
-    for (std::size_t b = a + 1; b < blocks.size(); ++b) {
-      if (group[a] == group[b] || receiving.count(group[a]) != 0 || receiving.count(group[b]) != 0) continue;
-      const coupler::Box one = bounds<D>({blocks[a]}), other = bounds<D>({blocks[b]});
-      bool apart = false;
-      for (std::size_t d = 0; d < D; ++d) {
-        const std::size_t x = axis_in_space<D>(d);
-        apart = apart || one.upper[x] < other.lower[x] || other.upper[x] < one.lower[x];
-      }
-      if (apart) continue;
-      throw ConfigError(
-          "blocks '" + blocks[a].name + "' and '" + blocks[b].name +
-          "' meet or overlap, but nothing passes from one to the other: let their faces' nodes coincide "
-          "(joins: auto), give the upper one faces with condition overset, or keep them apart");
-    }
-}
-
 /// Ghosts behind a fringe face are set by nobody: no solved cell may read them.
 template <int D>
 void check_fringe_faces(const Block<D>& block) {
@@ -110,15 +85,41 @@ void check_scene(const support::Scene& scene) {
         "side of the domain, as under a wave, with coupling.kind: imposed");
 }
 
+/// Between components that meet, one must take values from the other.
+template <int D>
+void check_apart(const std::vector<Block<D>>& blocks) {
+  const std::vector<std::size_t> group = components(blocks);
+  std::set<std::size_t> receiving;  // components with interpolated cells
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    for (const CellStatus status : blocks[b].status)
+      if (status == CellStatus::interpolated) receiving.insert(group[b]);
+  for (std::size_t a = 0; a < blocks.size(); ++a)
+    for (std::size_t b = a + 1; b < blocks.size(); ++b) {
+      if (group[a] == group[b] || receiving.count(group[a]) != 0 || receiving.count(group[b]) != 0) continue;
+      const coupler::Box one = bounds<D>({blocks[a]}), other = bounds<D>({blocks[b]});
+      bool apart = false;
+      for (std::size_t d = 0; d < D; ++d) {
+        const std::size_t x = axis_in_space<D>(d);
+        apart = apart || one.upper[x] < other.lower[x] || other.upper[x] < one.lower[x];
+      }
+      if (apart) continue;
+      throw ConfigError(
+          "blocks '" + blocks[a].name + "' and '" + blocks[b].name +
+          "' meet or overlap, but nothing passes from one to the other: let their faces' nodes coincide "
+          "(joins: auto), give the upper one faces with condition overset, or keep them apart");
+    }
+}
+
 template <int D>
 void check_blocks(const std::vector<Block<D>>& blocks, const support::Scene& scene) {
-  check_apart<D>(blocks);
   for (const Block<D>& block : blocks) {
     check_fringe_faces<D>(block);
     if (scene.initial.surface) check_under_water<D>(block, *scene.initial.surface);
   }
 }
 
+template void check_apart<2>(const std::vector<Block<2>>&);
+template void check_apart<3>(const std::vector<Block<3>>&);
 template void check_blocks<2>(const std::vector<Block<2>>&, const support::Scene&);
 template void check_blocks<3>(const std::vector<Block<3>>&, const support::Scene&);
 

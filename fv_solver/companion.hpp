@@ -6,8 +6,8 @@
 #include <string>
 
 #include "dual_time/stepper.hpp"
+#include "io/state_file.hpp"
 #include "littoral/coupler/window.hpp"
-#include "littoral/support/checkpoint.hpp"
 
 namespace littoral::fv {
 
@@ -31,7 +31,8 @@ class Companion {
   virtual std::string description() const = 0;
 
   /// What a bitwise continuation needs of the companion; load after begin.
-  virtual void save(support::CheckpointWriter&) const {}
+  /// comm collective
+  virtual void save(StateWriter<D>&) const {}
   virtual void load(const support::CheckpointReader&) {}
 
   /// Where a companion says something: the solver's log.

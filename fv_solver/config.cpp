@@ -281,6 +281,14 @@ void FvConfig::bind(Binder& b) {
         .max(50)
         .doc("Cells of the upper grid, at least, between its own fringe and that of the hole it cuts below.");
   });
+  b.section("ranks", "A run on several MPI ranks: blocks are cut where need be and dealt by their cells.",
+            [&] {
+              b.key("cut_layers", ranks.cut_layers)
+                  .doc(
+                      "Allow cuts through thin cells, as in layers at walls, too: more equal loads, but "
+                      "lines across the "
+                      "layer are then solved in parts, which costs inner cycles.");
+            });
   b.section("time", "Steps of a run without partner, and bounds on the windows of a coupled one.", [&] {
     b.key("dt", time.dt).unit("s").exclusive_min(0).doc("Time step.");
     b.key("cfl", time.cfl)

@@ -200,6 +200,10 @@ struct FvConfig {
   double forcing_constant = 10.0;  // K of (21)
   support::PartnerConfig partner;
 
+  struct RanksConfig {
+    bool cut_layers = false;  // see cut_planes
+  } ranks;
+
   struct SourceTerm {  // per volume
     std::optional<support::Formula> mass, u, v, w;
   } source;

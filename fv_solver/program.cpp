@@ -40,26 +40,30 @@ void need_step(const ProgramOptions& options, const FvConfig& config, const supp
     throw ConfigError(options.config + ": a run without partner needs a step: give time.dt or time.cfl");
 }
 
+Ranks ranks_of(const coupler::Job& job) { return job.size() > 1 ? Ranks(job.comm()) : Ranks(); }
+
 /// What --check finds beyond reading: everything a run would refuse before its first window.
 template <int D>
-std::ptrdiff_t check_run(const FvConfig& config, const support::Scene& scene,
-                         std::vector<std::string>& notes) {
-  Stepper<D> stepper = make_stepper<D>(config, scene, &notes);
+double check_run(const coupler::Job& job, const FvConfig& config, const support::Scene& scene,
+                 std::vector<std::string>& notes) {
+  Stepper<D> stepper = make_stepper<D>(config, scene, &notes, ranks_of(job));
   if (scene.has_region()) {
-    carve(stepper.blocks(), scene);
-    check_layers_covered<D>(DonorOffer<D>(stepper.blocks()).geometry(), scene);
+    carve<D>(stepper.blocks(), stepper.exchange(), scene);
+    check_layers_covered<D>(DonorOffer<D>(stepper.blocks(), stepper.exchange()).geometry(), scene,
+                            stepper.exchange().ranks());
   }
   check_blocks<D>(stepper.blocks(), scene);
   const Gauges<D> gauges(config.gauges, stepper);
-  std::ptrdiff_t cells = 0;
-  for (const Block<D>& block : stepper.blocks()) cells += block.extent.cells();
+  double cells = 0.0;
+  for (const auto& shape : stepper.exchange().layout().shape)
+    cells += static_cast<double>(shape.extent.cells());
   return cells;
 }
 
 template <int D>
 void run_scene(coupler::Job& job, const ProgramOptions& options, const FvConfig& config,
                const support::Scene& scene) {
-  Solver<D> solver(config, scene, options.out, options.restart);
+  Solver<D> solver(config, scene, options.out, options.restart, ranks_of(job));
   solver.run(*companion_of<D>(job, options, config, scene, solver));
 }
 
@@ -92,6 +96,7 @@ int run(coupler::Job& job, int argc, char** argv) {
     return 0;
   }
   if (!grid_path.empty()) {
+    if (!speaks) return 0;
     if (scene.dimension == 2)
       write_grid<2>(grid_path, build_grid<2>(config, scene).blocks);
     else
@@ -103,16 +108,13 @@ int run(coupler::Job& job, int argc, char** argv) {
   support::planned_partner(coupler::Role::fv, scene, config.partner, options);
   if (options.check) {
     std::vector<std::string> notes;
-    const std::ptrdiff_t cells =
-        scene.dimension == 2 ? check_run<2>(config, scene, notes) : check_run<3>(config, scene, notes);
+    const double cells = scene.dimension == 2 ? check_run<2>(job, config, scene, notes)
+                                              : check_run<3>(job, config, scene, notes);
     if (!speaks) return 0;
     for (const std::string& note : notes) std::printf("fv_solver: %s\n", note.c_str());
-    std::printf("fv_solver: %s: no problem found; %td cells\n", options.config.c_str(), cells);
+    std::printf("fv_solver: %s: no problem found; %.0f cells\n", options.config.c_str(), cells);
     return 0;
   }
-  if (job.size() > 1)
-    throw ConfigError("fv_solver runs on one MPI rank, not " + std::to_string(job.size()) +
-                      "; use threads instead (OMP_NUM_THREADS, or littoral run --fv-ranks 1 --threads N)");
   if (scene.dimension == 2)
     run_scene<2>(job, options, config, scene);
   else

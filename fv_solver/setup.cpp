@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "boundary/ghosts.hpp"
+#include "checks.hpp"
 #include "dual_time/plain.hpp"
 #include "grid/box.hpp"
 #include "grid/find_joins.hpp"
@@ -13,6 +14,8 @@
 #include "grid/space.hpp"
 #include "implicit/multigrid_solver.hpp"
 #include "littoral/error.hpp"
+#include "parallel/cut.hpp"
+#include "parallel/load_report.hpp"
 
 namespace littoral::fv {
 namespace {
@@ -109,16 +112,50 @@ Grid<D> build_grid(const FvConfig& config, const support::Scene& scene) {
   grid.notes.insert(grid.notes.end(), joins.begin(), joins.end());
   grid.notes.insert(grid.notes.end(), quality.begin(), quality.end());
   check_gravity<D>(grid.blocks, scene);
+  for (Block<D>& block : grid.blocks) set_outlet_lengths(block);
   grid.overset = assemble_overset<D>(grid.blocks, config.overset);
   grid.notes.insert(grid.notes.end(), grid.overset.notes.begin(), grid.overset.notes.end());
   return grid;
 }
 
+namespace {
+
+/// What a rank solves of a grid, and how it is tied to the rest.
 template <int D>
-Stepper<D> make_stepper(const FvConfig& config, const support::Scene& scene,
-                        std::vector<std::string>* notes) {
+struct OwnPart {
+  std::vector<Block<D>> blocks;
+  Exchange<D> exchange;
+};
+
+template <int D>
+OwnPart<D> own_part(Grid<D> grid, const FvConfig& config, const Ranks& ranks,
+                    std::vector<std::string>& notes) {
+  OwnPart<D> own;
+  if (!ranks.several()) {
+    own.exchange = Exchange<D>(grid.blocks, grid.overset.links);
+    own.blocks = std::move(grid.blocks);
+    return own;
+  }
+  const std::vector<Piece<D>> pieces =
+      deal<D>(cut_planes<D>(grid.blocks, config.ranks.cut_layers), ranks.size());
+  CutGrid<D> parts = cut<D>(grid.blocks, grid.overset.links, pieces, ranks);
+  grid.blocks.clear();
+  for (std::string& note : load_report<D>(parts.layout)) notes.push_back(std::move(note));
+  own.exchange = Exchange<D>(parts.blocks, parts.overset, parts.layout);
+  for (const std::size_t b : parts.layout.owners.mine()) own.blocks.push_back(std::move(parts.blocks[b]));
+  return own;
+}
+
+}  // namespace
+
+template <int D>
+Stepper<D> make_stepper(const FvConfig& config, const support::Scene& scene, std::vector<std::string>* notes,
+                        const Ranks& ranks) {
   Grid<D> grid = build_grid<D>(config, scene);
-  if (notes != nullptr) *notes = grid.notes;
+  check_apart<D>(grid.blocks);
+  std::vector<std::string> told = grid.notes;
+  OwnPart<D> own = own_part<D>(std::move(grid), config, ranks, told);
+  if (notes != nullptr) *notes = std::move(told);
   Equations<D> equations;
   equations.fluid = fluid_of<D>(scene);
   equations.limiter = config.limiter;
@@ -139,8 +176,7 @@ Stepper<D> make_stepper(const FvConfig& config, const support::Scene& scene,
                  ? std::unique_ptr<StepSolver<D>>(std::make_unique<MultigridSolver<D, float>>())
                  : std::make_unique<MultigridSolver<D, double>>();
 
-  Stepper<D> stepper(std::move(grid.blocks), equations, std::move(solver), tolerance,
-                     std::move(grid.overset.links));
+  Stepper<D> stepper(std::move(own.blocks), std::move(own.exchange), equations, std::move(solver), tolerance);
   const auto initial = scene.initial;
   stepper.initialise(
       [&initial](const std::array<double, D>& at, double t) {
@@ -172,7 +208,9 @@ Stepper<D> make_stepper(const FvConfig& config, const support::Scene& scene,
 
 template Grid<2> build_grid<2>(const FvConfig&, const support::Scene&);
 template Grid<3> build_grid<3>(const FvConfig&, const support::Scene&);
-template Stepper<2> make_stepper<2>(const FvConfig&, const support::Scene&, std::vector<std::string>*);
-template Stepper<3> make_stepper<3>(const FvConfig&, const support::Scene&, std::vector<std::string>*);
+template Stepper<2> make_stepper<2>(const FvConfig&, const support::Scene&, std::vector<std::string>*,
+                                    const Ranks&);
+template Stepper<3> make_stepper<3>(const FvConfig&, const support::Scene&, std::vector<std::string>*,
+                                    const Ranks&);
 
 }  // namespace littoral::fv

@@ -6,6 +6,7 @@
 #include "config.hpp"
 #include "dual_time/stepper.hpp"
 #include "overset/assembly.hpp"
+#include "parallel/ranks.hpp"
 
 namespace littoral::fv {
 
@@ -22,9 +23,11 @@ template <int D>
 Grid<D> build_grid(const FvConfig& config, const support::Scene& scene);
 
 /// The discrete problem of a configuration: blocks, fluid, wave speeds, inner solver, sources, initial state.
-/// notes: gets what the user should know of the grid; may be null. throws ConfigError
+/// notes: gets what the user should know of the grid; may be null. On several ranks each gets its blocks, cut
+/// from the whole where need be; during this call every rank holds the grid's geometry as a whole.
+/// throws ConfigError
 template <int D>
 Stepper<D> make_stepper(const FvConfig& config, const support::Scene& scene,
-                        std::vector<std::string>* notes = nullptr);
+                        std::vector<std::string>* notes = nullptr, const Ranks& ranks = {});
 
 }  // namespace littoral::fv

@@ -19,8 +19,9 @@
 namespace littoral::fv {
 namespace {
 
-std::string make_folder(const std::string& out) {
+std::string make_folder(const std::string& out, const Ranks& ranks) {
   const std::string folder = out + "/fv";
+  if (!ranks.root()) return folder;
   std::error_code problem;
   std::filesystem::create_directories(folder, problem);
   if (problem) throw IoError(folder + ": cannot be made: " + problem.message());
@@ -45,19 +46,22 @@ std::string format(const char* pattern, Values... values) {
 
 template <int D>
 Solver<D>::Solver(const FvConfig& config, const support::Scene& scene, const std::string& out,
-                  const std::string& restart)
+                  const std::string& restart, const Ranks& ranks)
     : config_(config),
       scene_(scene),
-      folder_(make_folder(out)),
+      ranks_(ranks),
+      folder_(make_folder(out, ranks)),
       restart_(restart),
       restarted_(!restart.empty()),
-      log_("fv_solver", 0, folder_ + "/log.txt"),
+      log_("fv_solver", ranks.rank(), ranks.root() ? folder_ + "/log.txt" : ""),
       solve_(timers_.declare("solve")),
       write_(timers_.declare("output")),
-      stepper_(make_stepper<D>(config, scene, &grid_notes_)) {
+      stepper_(make_stepper<D>(config, scene, &grid_notes_, ranks)) {
   if (restarted_) window_ = read_checkpoint<D>(restart, stepper_, scene);
-  write_text(folder_ + "/config.yaml", config.resolved());
-  write_text(folder_ + "/scene.yaml", scene.resolved());
+  if (ranks.root()) {
+    write_text(folder_ + "/config.yaml", config.resolved());
+    write_text(folder_ + "/scene.yaml", scene.resolved());
+  }
   last_checkpoint_ = stepper_.time();
 }
 
@@ -71,10 +75,10 @@ void Solver<D>::run(Companion<D>& companion) {
   if (restarted_) companion.load(support::CheckpointReader(restart_));
   output_ = std::make_unique<Output<D>>(folder_, config_, scene_, stepper_, timers_, restarted_);
   if (restarted_) output_->set_last_fields(support::CheckpointReader(restart_).number("output/last_fields"));
-  std::ptrdiff_t cells = 0;
-  for (const auto& block : stepper_.blocks()) cells += block.extent.cells();
-  log_.info(format("%s: %td cells in %zu blocks, %d threads, %s", scene_.title.c_str(), cells,
-                   stepper_.blocks().size(), omp_get_max_threads(), companion.description().c_str()));
+  const Layout<D>& layout = stepper_.exchange().layout();
+  log_.info(format("%s: %.0f cells in %zu blocks, %d ranks of %d threads, %s", scene_.title.c_str(), cells(),
+                   layout.whole.size(), ranks_.size(), omp_get_max_threads(),
+                   companion.description().c_str()));
   for (const std::string& note : grid_notes_) log_.info(note);
   if (!restarted_) output_->first(stepper_, companion.waited());
 
@@ -107,7 +111,7 @@ void Solver<D>::step(const coupler::Agreement& agreement, Companion<D>& companio
   output_->after(agreement, stepper_, outcome, companion.waited());
   if (agreement.checkpoint) {
     write_checkpoint<D>(support::checkpoint_path(output_->folder(), window_), stepper_, window_, scene_,
-                        [&](support::CheckpointWriter& file) {
+                        [&](StateWriter<D>& file) {
                           companion.save(file);
                           file.put("output/last_fields", output_->last_fields());
                         });
@@ -125,7 +129,7 @@ coupler::Proposal Solver<D>::propose() const {
     for (std::size_t b = 0; b < stepper_.blocks().size(); ++b)
       rate = std::max(
           rate, convective_rate<D>(stepper_.blocks()[b], stepper_.state()[b], scene_.reference_velocity));
-    mine.dt_stable = *config_.time.cfl / rate;
+    mine.dt_stable = *config_.time.cfl / ranks_.largest(rate);
   }
   // a window whose length the particles decide: as long as the last one
   const double length = scene_.has_region() ? stepper_.last_dt() : mine.dt_stable;
@@ -157,7 +161,15 @@ void Solver<D>::report(const StepReport& outcome) {
 }
 
 template <int D>
+double Solver<D>::cells() const {
+  double n = 0.0;
+  for (const auto& shape : stepper_.exchange().layout().shape) n += static_cast<double>(shape.extent.cells());
+  return n;
+}
+
+template <int D>
 void Solver<D>::write_summary(const Companion<D>& companion, const std::string& reason) {
+  if (!ranks_.root()) return;
   support::Summary summary;
   summary.program = "fv_solver";
   summary.version = k_version;
@@ -165,15 +177,14 @@ void Solver<D>::write_summary(const Companion<D>& companion, const std::string& 
   summary.wall_time = support::Timers::now() - begin_;
   summary.phases = timers_.table();
   summary.phases.emplace_back("wait", companion.waited());
-  double cells = 0.0;
-  for (const auto& block : stepper_.blocks()) cells += static_cast<double>(block.extent.cells());
   const double solved = timers_.seconds(solve_), steps = static_cast<double>(std::max(1L, steps_));
-  summary.results = {{"cells", cells},
+  summary.results = {{"cells", cells()},
+                     {"ranks", static_cast<double>(ranks_.size())},
                      {"steps", static_cast<double>(steps_)},
                      {"time", stepper_.time()},
                      {"inner_cycles_per_step", static_cast<double>(cycles_) / steps},
                      {"unconverged_steps", static_cast<double>(unconverged_)},
-                     {"microseconds_per_cell_and_step", 1e6 * solved / (cells * steps)},
+                     {"microseconds_per_cell_and_step", 1e6 * solved / (cells() * steps)},
                      {"mass", output_->integrals().mass},
                      {"kinetic_energy", output_->integrals().kinetic_energy},
                      {"potential_energy", output_->integrals().potential_energy}};

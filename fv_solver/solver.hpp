@@ -18,9 +18,9 @@ template <int D>
 class Solver {
  public:
   /// `out` is the folder of results of the whole job; this program writes to OUT/fv. `restart`: a checkpoint
-  /// to continue from, or empty. throws ConfigError, IoError
+  /// to continue from, or empty. comm collective, as all of this. throws ConfigError, IoError
   Solver(const FvConfig& config, const support::Scene& scene, const std::string& out,
-         const std::string& restart);
+         const std::string& restart, const Ranks& ranks = {});
 
   double start_time() const { return stepper_.time(); }
   std::int64_t start_window() const { return window_; }
@@ -34,11 +34,13 @@ class Solver {
 
  private:
   coupler::Proposal propose() const;
+  double cells() const;  // of all ranks
   void report(const StepReport& report);
   void write_summary(const Companion<D>& companion, const std::string& reason);
 
   FvConfig config_;
   support::Scene scene_;
+  Ranks ranks_;
   std::string folder_;   // OUT/fv
   std::string restart_;  // checkpoint to continue from, or empty
   bool restarted_;

@@ -7,9 +7,10 @@ namespace littoral::fv {
 
 namespace {
 
+/// Of all blocks; kept: those of this rank.
 template <int D>
-std::vector<ConnectedGhosts> connected_ghosts(const std::vector<Block<D>>& blocks,
-                                              const JoinLinks<D>& links) {
+std::vector<ConnectedGhosts> connected_ghosts(const std::vector<Block<D>>& blocks, const JoinLinks<D>& links,
+                                              const Owners& owners) {
   std::vector<Field> cell;
   std::vector<ConnectedGhosts> connected;
   for (const auto& block : blocks) {
@@ -20,7 +21,7 @@ std::vector<ConnectedGhosts> connected_ghosts(const std::vector<Block<D>>& block
     fill_scalar_ghosts(block, {}, ScalarGhosts::cell_data, cell.back());
   }
   links.copy([&](std::size_t b) -> Field& { return cell[b]; });
-  for (std::size_t b = 0; b < blocks.size(); ++b) {
+  for (const std::size_t b : owners.mine()) {
     connected.emplace_back(cell[b].begin(), cell[b].end());
     for_each_index<D>({}, blocks[b].extent.n, [&](const std::array<int, D>& index) {
       connected.back()[static_cast<std::size_t>(blocks[b].extent.at(index))] = 0;
@@ -32,69 +33,70 @@ std::vector<ConnectedGhosts> connected_ghosts(const std::vector<Block<D>>& block
 }  // namespace
 
 template <int D>
-Exchange<D>::Exchange(const std::vector<Block<D>>& blocks, OversetLinks<D> overset)
-    : overset_(std::move(overset)) {
-  if (!overset_.empty()) contour_ = ClosedContour<D>(blocks);
+Exchange<D>::Exchange(const std::vector<Block<D>>& blocks, const OversetLinks<D>& overset, Layout<D> layout)
+    : layout_(std::move(layout)) {
   std::vector<Extent<D>> extents;
   for (const auto& block : blocks) extents.push_back(block.extent);
-  const std::vector<JoinSide<D>> joins = join_sides(blocks);
-  links_ = JoinLinks<D>(joins, extents, k_ghost);
-  irregular_ = IrregularFaces<D>(blocks, joins, links_);
-  connected_ = connected_ghosts(blocks, links_);
+  links_ = JoinLinks<D>(layout_.joins, extents, k_ghost, layout_.owners);
+  const JoinLinks<D> all(layout_.joins, extents, k_ghost);
+  irregular_ = IrregularFaces<D>(blocks, layout_.joins, all);
+  irregular_.keep(layout_.owners);
+  connected_ = connected_ghosts(blocks, all, layout_.owners);
+  if (overset.empty()) return;
+  contour_ = ClosedContour<D>(blocks, all);
+  contour_.keep(layout_.owners);
+  overset_ = DonorLinks<D>(overset, layout_.owners);
 }
 
 template <int D>
 void Exchange<D>::states(const std::vector<Block<D>>& blocks, std::vector<State<D>>& q) const {
-  for (const auto& r : overset_.receivers) {
-    const auto to = static_cast<std::size_t>(r.cell);
-    if (blocks[r.block].status[to] != CellStatus::interpolated) continue;  // the partner's region by now
-    double p = blocks[r.block].reference_pressure[to];
-    std::array<double, D> u{};
-    for (std::size_t k = 0; k < r.weight.size(); ++k) {
-      const State<D>& donor = q[r.donor_block[k]];
-      const auto from = static_cast<std::size_t>(r.donor[k]);
-      p += r.weight[k] * (donor.p[from] - blocks[r.donor_block[k]].reference_pressure[from]);
-      for (std::size_t d = 0; d < D; ++d) u[d] += r.weight[k] * donor.u[d][from];
-    }
-    q[r.block].p[to] = p;
-    for (std::size_t d = 0; d < D; ++d) q[r.block].u[d][to] = u[d];
+  overset_.interpolate(
+      D + 1,
+      [&](std::size_t b, std::size_t c, double* value) {
+        value[0] = q[b].p[c] - blocks[b].reference_pressure[c];
+        for (std::size_t k = 0; k < D; ++k) value[k + 1] = q[b].u[k][c];
+      },
+      [&](std::size_t b, std::size_t c, const double* value) {
+        if (blocks[b].status[c] != CellStatus::interpolated) return;  // the partner's region by now
+        q[b].p[c] = blocks[b].reference_pressure[c] + value[0];
+        for (std::size_t k = 0; k < D; ++k) q[b].u[k][c] = value[k + 1];
+      });
+  std::vector<std::vector<double*>> fields(blocks.size());
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    fill_ghosts(blocks[b], q[b]);
+    fields[b].push_back(q[b].p.data());
+    for (auto& u : q[b].u) fields[b].push_back(u.data());
   }
-  for (std::size_t b = 0; b < blocks.size(); ++b) fill_ghosts(blocks[b], q[b]);
-  links_.for_each([&](const CellCopies& c) {
-    const double* reference_here = blocks[c.to_block].reference_pressure.data();
-    const double* reference_there = blocks[c.from_block].reference_pressure.data();
-    const State<D>& from = q[c.from_block];
-    State<D>& to = q[c.to_block];
-    for (std::size_t i = 0; i < c.to.size(); ++i) {
-      const auto g = static_cast<std::size_t>(c.to[i]), o = static_cast<std::size_t>(c.from[i]);
-      to.p[g] = from.p[o] + (reference_here[g] - reference_there[o]);
-      for (std::size_t k = 0; k < D; ++k) to.u[k][g] = from.u[k][o];
-    }
-  });
+  links_.template copy_fields<double>(fields);
 }
 
 template <int D>
 void Exchange<D>::scalars(const std::vector<Block<D>>& blocks, const std::vector<std::vector<Field*>>& fields,
                           ScalarGhosts rule) const {
-  for (const auto& f : fields) {
-    if (rule == ScalarGhosts::level_set)
-      for (const auto& r : overset_.receivers) {
-        const auto to = static_cast<std::size_t>(r.cell);
-        if (blocks[r.block].status[to] != CellStatus::interpolated) continue;
-        double sum = 0.0;
-        for (std::size_t k = 0; k < r.weight.size(); ++k)
-          sum += r.weight[k] * (*f[r.donor_block[k]])[static_cast<std::size_t>(r.donor[k])];
-        (*f[r.block])[to] = sum;
-      }
-    const auto field_of = [&](std::size_t b) -> Field& { return *f[b]; };
-    if (rule == ScalarGhosts::level_set) {  // extrapolation looks across joins and periodic faces
+  if (rule == ScalarGhosts::level_set)
+    overset_.interpolate(
+        fields.size(),
+        [&](std::size_t b, std::size_t c, double* value) {
+          for (std::size_t i = 0; i < fields.size(); ++i) value[i] = (*fields[i][b])[c];
+        },
+        [&](std::size_t b, std::size_t c, const double* value) {
+          if (blocks[b].status[c] != CellStatus::interpolated) return;
+          for (std::size_t i = 0; i < fields.size(); ++i) (*fields[i][b])[c] = value[i];
+        });
+  std::vector<std::vector<double*>> pointers(blocks.size());
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    for (const auto& field : fields) pointers[b].push_back(field[b]->data());
+  const auto fill = [&](ScalarGhosts by) {
+    for (const auto& field : fields)
       for (std::size_t b = 0; b < blocks.size(); ++b)
-        fill_scalar_ghosts(blocks[b], connected_[b], ScalarGhosts::cell_data, *f[b]);
-      links_.copy(field_of, true);
-    }
-    for (std::size_t b = 0; b < blocks.size(); ++b) fill_scalar_ghosts(blocks[b], connected_[b], rule, *f[b]);
-    links_.copy(field_of);
+        fill_scalar_ghosts(blocks[b], connected_[b], by, *field[b]);
+  };
+  if (rule == ScalarGhosts::level_set) {  // extrapolation looks across joins and periodic faces
+    fill(ScalarGhosts::cell_data);
+    links_.template copy_fields<double>(pointers, true);
   }
+  fill(rule);
+  links_.template copy_fields<double>(pointers);
 }
 
 template <int D>

@@ -123,6 +123,38 @@ void carry_windows(Block<D>& block, const Equations<D>& equations, const Backwar
 
 namespace {
 
+/// Between the centres of the first and last cell of a line [m].
+template <int D>
+double block_length(const Block<D>& block, const Line<D>& line) {
+  double length2 = 0.0;
+  for (std::size_t k = 0; k < D; ++k) {
+    const double x = block.centre[k][line.inner[0]] - block.centre[k][line.opposite[0]];
+    length2 += x * x;
+  }
+  return std::sqrt(length2);
+}
+
+}  // namespace
+
+template <int D>
+void set_outlet_lengths(Block<D>& block) {
+  for (Window<D>& w : block.windows) {
+    if (w.condition != Condition::convective) continue;
+    std::array<int, D> lower = w.lower, upper = w.upper;
+    const auto d = static_cast<std::size_t>(w.direction);
+    lower[d] = w.side == 0 ? 0 : block.extent.n[d] - 1;
+    upper[d] = lower[d] + 1;
+    double sum = 0.0, n = 0.0;
+    for_each_index<D>(lower, upper, [&](const std::array<int, D>& index) {
+      sum += block_length<D>(block, Line<D>(block, w, block.extent.at(index)));
+      n += 1.0;
+    });
+    w.outlet_length = sum / n;
+  }
+}
+
+namespace {
+
 /// d q/dt + U dq/dn = 0 at the first ghost, upwind from the cell inside and in the step's own backward
 /// difference; p also + (p - given)/T, T = L/(.27 U) with the block's length L (Rudy & Strikwerda 1980), so
 /// that its level does not drift. The second ghost continues linearly.
@@ -132,13 +164,9 @@ void carry_out(const Block<D>& block, const Window<D>& w, const Line<D>& line, d
   if (w.carried_a0 == 0.0) return;
   constexpr double k_return = 0.27;
   const std::size_t i0 = line.inner[0], g0 = line.ghost[0], g1 = line.ghost[1];
-  double length2 = 0.0;
-  for (std::size_t k = 0; k < D; ++k) {
-    const double x = block.centre[k][i0] - block.centre[k][line.opposite[0]];
-    length2 += x * x;
-  }
+  const double length = w.outlet_length > 0.0 ? w.outlet_length : block_length<D>(block, line);
   const double out = w.carried_speed / (2.0 * d0);
-  const double back = k_return * w.carried_speed / (std::sqrt(length2) + 2.0 * d0);
+  const double back = k_return * w.carried_speed / (length + 2.0 * d0);
   const double* reference = block.reference_pressure.data();
   const double p0 = q.p[i0] - reference[i0];
   const double p = (w.carried_p[flat] + out * p0 + back * w.given_p[0][flat]) / (w.carried_a0 + out + back);
@@ -290,6 +318,8 @@ template void carry_windows(Block<2>&, const Equations<2>&, const BackwardDiffer
                             const State<2>&);
 template void carry_windows(Block<3>&, const Equations<3>&, const BackwardDifference&, const State<3>&,
                             const State<3>&);
+template void set_outlet_lengths(Block<2>&);
+template void set_outlet_lengths(Block<3>&);
 template void fill_ghosts(const Block<2>&, State<2>&);
 template void fill_ghosts(const Block<3>&, State<3>&);
 template void check_windows(const Block<2>&);

@@ -15,6 +15,11 @@ template <int D>
 void carry_windows(Block<D>& block, const Equations<D>& equations, const BackwardDifference& scheme,
                    const State<D>& now, const State<D>& before);
 
+/// Keeps in convective windows how long the water before them is, the mean over their faces: a block that is
+/// cut later does not change it.
+template <int D>
+void set_outlet_lengths(Block<D>& block);
+
 /// Sets p and u in all ghost cells, edges and corners included, from the inner cells and the windows' given
 /// values: directions in turn, each over the ghosts of those before. Ghosts behind `fringe` and `join`
 /// windows are left alone (boundary/exchange.hpp). Pressures are treated relative to the hydrostatic

@@ -90,25 +90,70 @@ IrregularFaces<D>::IrregularFaces(const std::vector<Block<D>>& blocks, const std
 }
 
 template <int D>
+void IrregularFaces<D>::keep(const Owners& owners) {
+  std::vector<Face> both;
+  const auto peer = [&](std::size_t block) -> Peer& {
+    for (Peer& p : peers_)
+      if (p.rank == owners.rank[block]) return p;
+    peers_.push_back({owners.rank[block], {}, {}});
+    return peers_.back();
+  };
+  const auto own = [&](Side side) {
+    side.block = owners.number[side.block];
+    return side;
+  };
+  for (const Face& f : faces_) {
+    const bool owner = owners.here(f.owner.block), other = owners.here(f.other.block);
+    if (owner && other)
+      both.push_back({own(f.owner), own(f.other)});
+    else if (owner)
+      peer(f.other.block).gives.push_back(own(f.owner));
+    else if (other)
+      peer(f.owner.block).takes.push_back(own(f.other));
+  }
+  faces_ = std::move(both);
+  std::vector<Halo::Peer> messages;
+  constexpr std::size_t k_bytes = D * sizeof(double);
+  for (const Peer& p : peers_)
+    messages.push_back({p.rank, k_bytes * p.gives.size(), k_bytes * p.takes.size()});
+  halo_ = Halo(owners.ranks, messages);
+}
+
+template <int D>
 void IrregularFaces<D>::share_friction(const std::vector<Block<D>>& blocks, const Fluid<D>& fluid,
                                        const std::vector<State<D>>& q, std::vector<Residual<D>>& r) const {
   if (fluid.viscosity == 0.0) return;
-  for (const Face& f : faces_) {
-    const auto outward_friction = [&](const Side& side) {
-      std::array<double, D> force{};
-      double unused = 0.0;
-      FluxRow<D> row;
-      row.mass = &unused;
-      for (std::size_t k = 0; k < D; ++k) row.momentum[k] = &force[k];
-      subtract_stress_row<D>(blocks[side.block], q[side.block], side.direction, side.face, 1,
-                             fluid.density * fluid.viscosity, row);
-      for (double& x : force) x *= side.outward;
-      return force;
-    };
-    const std::array<double, D> owner = outward_friction(f.owner), other = outward_friction(f.other);
-    const auto c = static_cast<std::size_t>(f.other.cell);
+  const auto outward_friction = [&](const Side& side) {
+    std::array<double, D> force{};
+    double unused = 0.0;
+    FluxRow<D> row;
+    row.mass = &unused;
+    for (std::size_t k = 0; k < D; ++k) row.momentum[k] = &force[k];
+    subtract_stress_row<D>(blocks[side.block], q[side.block], side.direction, side.face, 1,
+                           fluid.density * fluid.viscosity, row);
+    for (double& x : force) x *= side.outward;
+    return force;
+  };
+  const auto settle = [&](const Side& other, const double* owner_force) {
+    const std::array<double, D> force = outward_friction(other);
+    const auto c = static_cast<std::size_t>(other.cell);
     for (std::size_t k = 0; k < D; ++k)
-      r[f.other.block].momentum[k][c] -= blocks[f.other.block].solved[c] * (owner[k] + other[k]);
+      r[other.block].momentum[k][c] -= blocks[other.block].solved[c] * (owner_force[k] + force[k]);
+  };
+  for (std::size_t p = 0; p < peers_.size(); ++p) {
+    double* out = halo_.out<double>(p);
+    for (const Side& side : peers_[p].gives)
+      for (const double x : outward_friction(side)) *out++ = x;
+  }
+  halo_.start();
+  for (const Face& f : faces_) settle(f.other, outward_friction(f.owner).data());
+  halo_.wait();
+  for (std::size_t p = 0; p < peers_.size(); ++p) {
+    const double* in = halo_.in<double>(p);
+    for (const Side& side : peers_[p].takes) {
+      settle(side, in);
+      in += D;
+    }
   }
 }
 

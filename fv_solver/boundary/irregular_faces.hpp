@@ -20,9 +20,12 @@ class IrregularFaces {
   IrregularFaces() = default;
   IrregularFaces(const std::vector<Block<D>>& blocks, const std::vector<JoinSide<D>>& joins,
                  const JoinLinks<D>& links);
+  /// Of faces between all blocks, leaves those of a rank's own ones: with one side, or both.
+  void keep(const Owners& owners);
 
   std::size_t size() const { return faces_.size(); }
   /// Adds the difference of the two frictions to the residual of the higher side. in q with ghosts current
+  /// comm the ranks of the other sides
   void share_friction(const std::vector<Block<D>>& blocks, const Fluid<D>& fluid,
                       const std::vector<State<D>>& q, std::vector<Residual<D>>& r) const;
 
@@ -36,7 +39,13 @@ class IrregularFaces {
   struct Face {
     Side owner, other;
   };
-  std::vector<Face> faces_;
+  struct Peer {
+    int rank = 0;
+    std::vector<Side> gives, takes;  // lower sides here, higher sides here
+  };
+  std::vector<Face> faces_;  // both sides here
+  std::vector<Peer> peers_;
+  mutable Halo halo_;
 };
 
 }  // namespace littoral::fv

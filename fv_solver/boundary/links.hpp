@@ -1,53 +1,76 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
 #include "boundary/join.hpp"
 #include "grid/block.hpp"
+#include "parallel/halo.hpp"
+#include "parallel/layout.hpp"
 
 namespace littoral::fv {
 
-/// Cells of one block whose values are those of other cells, given once as a list of copies.
-struct CellCopies {
-  std::size_t to_block = 0, from_block = 0;
-  std::vector<std::ptrdiff_t> to, from;  // offsets, of one length
-};
-
-/// The ghosts behind all joins of a set of blocks. Beside a corner of a block a ghost belongs to several
-/// faces; there the join has the last word, through the other block's own ghosts. The copies are ordered so
-/// that each reads what is already right: ghosts beyond a face (which read inner cells), then beyond an edge
-/// (which read face ghosts), then beyond a corner. pre of copying: the ghosts behind all other windows are
-/// current
+/// The ghosts behind all joins of a set of blocks: each is the copy of one cell. Beside a corner of a block a
+/// ghost belongs to several faces; there the join has the last word, and the cell is found through the other
+/// block's own ghosts: an inner cell, or a ghost behind another window. So all copies are made in one pass,
+/// and one message a neighbour rank holds what it needs. pre of copying: the ghosts behind all other windows
+/// are current
 template <int D>
 class JoinLinks {
  public:
   JoinLinks() = default;
-  /// layers: of ghosts, at most k_ghost
-  JoinLinks(const std::vector<JoinSide<D>>& joins, const std::vector<Extent<D>>& extents, int layers);
+  /// joins and extents of all blocks of all ranks; layers: of ghosts, at most k_ghost
+  JoinLinks(const std::vector<JoinSide<D>>& joins, const std::vector<Extent<D>>& extents, int layers,
+            const Owners& owners);
+  JoinLinks(const std::vector<JoinSide<D>>& joins, const std::vector<Extent<D>>& extents, int layers)
+      : JoinLinks(joins, extents, layers, Owners::all_here(extents.size())) {}
 
-  bool empty() const { return copies_[0].empty(); }
-  /// body(const CellCopies&), in order. faces_only: not the ghosts beyond edges and corners
-  template <class Body>
-  void for_each(Body&& body, bool faces_only = false) const {
-    for (std::size_t k = 0; k < (faces_only ? 1 : copies_.size()); ++k)
-      for (const CellCopies& c : copies_[k]) body(c);
-  }
-  /// fields[block] of the layout of cell arrays
-  template <class Fields>
-  void copy(Fields&& field_of, bool faces_only = false) const {
-    for_each(
-        [&](const CellCopies& c) {
-          auto& to = field_of(c.to_block);
-          const auto& from = field_of(c.from_block);
-          for (std::size_t i = 0; i < c.to.size(); ++i)
-            to[static_cast<std::size_t>(c.to[i])] = from[static_cast<std::size_t>(c.from[i])];
-        },
-        faces_only);
+  /// Copies several fields at once: fields[own block][k], of the layout of cell arrays. T: double, float
+  /// faces_only: not the ghosts beyond edges and corners    comm: neighbours
+  template <class T>
+  void copy_fields(const std::vector<std::vector<T*>>& fields, bool faces_only = false) const;
+  /// One field; field_of(own block)
+  template <class FieldOf>
+  void copy(FieldOf&& field_of, bool faces_only = false) const {
+    using T = std::decay_t<decltype(field_of(std::size_t{0})[0])>;
+    std::vector<std::vector<T*>> fields;
+    for (std::size_t b = 0; b < n_blocks_; ++b) fields.push_back({field_of(b).data()});
+    copy_fields<T>(fields, faces_only);
   }
 
  private:
-  std::array<std::vector<CellCopies>, D> copies_;  // [faces a ghost is beyond, less one]
+  struct Cells {  // of one own block, copied to or from one other
+    std::size_t block = 0, other = 0;
+    std::vector<std::ptrdiff_t> cell;
+  };
+  struct Copies {
+    Cells to, from;
+  };
+  struct Peer {
+    int rank = 0;
+    std::vector<Cells> gives, takes;
+    std::size_t n_gives = 0, n_takes = 0;
+  };
+  struct Pass {
+    std::vector<Copies> copies;
+    std::vector<Peer> peers;
+    struct Sized {
+      std::size_t bytes;  // an entry
+      Halo halo;
+    };
+    mutable std::vector<Sized> halos;  // made at the first copy of so many fields
+  };
+  struct Copy {  // numbers of all blocks
+    std::size_t to_block, from_block;
+    std::ptrdiff_t to, from;
+  };
+  static void add(Pass& pass, const Copy& copy, const Owners& owners);
+  Halo& halo(const Pass& pass, std::size_t bytes) const;
+
+  Ranks ranks_;
+  std::size_t n_blocks_ = 0;  // own ones
+  Pass all_, faces_;
 };
 
 /// All join windows of the blocks.

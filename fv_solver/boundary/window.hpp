@@ -72,6 +72,7 @@ struct Window {
   std::array<std::vector<double>, D> carried_u;  // [m/s^2]
   double carried_a0 = 0.0;                       // [1/s]
   double carried_speed = 0.0;                    // [m/s]
+  double outlet_length = 0.0;                    // [m] to the opposite side of the uncut block; 0: look
 };
 
 }  // namespace littoral::fv

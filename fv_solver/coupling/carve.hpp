@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "boundary/exchange.hpp"
 #include "grid/block.hpp"
 #include "littoral/support/scene.hpp"
 
@@ -19,10 +20,15 @@ struct Carving {
 
 /// Gives the cells inside the SPH region their roles. A cell is inside where its centre is within a nominal
 /// box of the scene. Coupling I (imposed): the first `fringe_layers` layers next to computed cells, diagonals
-/// included, are fringe, deeper ones blanked. Coupling II (forced): all are forced.
-/// in/out block.status, block.solved
+/// included and across joins, are fringe, deeper ones blanked. Coupling II (forced): all are forced.
+/// in/out block.status, block.solved of this rank's blocks. comm collective
 /// throws ConfigError: a region that holds no cell, or fewer fringe layers beside an open face than asked for
 template <int D>
-Carving carve(std::vector<Block<D>>& blocks, const support::Scene& scene);
+Carving carve(std::vector<Block<D>>& blocks, const Exchange<D>& exchange, const support::Scene& scene);
+/// All blocks are here.
+template <int D>
+Carving carve(std::vector<Block<D>>& blocks, const support::Scene& scene) {
+  return carve<D>(blocks, Exchange<D>(blocks), scene);
+}
 
 }  // namespace littoral::fv

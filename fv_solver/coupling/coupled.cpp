@@ -5,7 +5,6 @@
 #include <cstdio>
 
 #include "coupling/carve.hpp"
-#include "coupling/interface_flux.hpp"
 #include "grid/space.hpp"
 
 namespace littoral::fv {
@@ -22,11 +21,13 @@ Coupled<D>::Coupled(const support::Scene& scene, double forcing_constant,
 
 template <int D>
 void Coupled<D>::begin(Stepper<D>& stepper) {
-  const Carving carving = carve(stepper.blocks(), scene_);
+  const Exchange<D>& exchange = stepper.exchange();
+  const Carving carving = carve<D>(stepper.blocks(), exchange, scene_);
   for (const std::string& note : carving.notes) this->tell(note);
   column_depth_ = carving.column_depth;
-  offer_.emplace(stepper.blocks());
-  check_layers_covered<D>(offer_->geometry(), scene_);
+  offer_.emplace(stepper.blocks(), exchange);
+  check_layers_covered<D>(offer_->geometry(), scene_, exchange.ranks());
+  interface_.emplace(stepper.blocks(), exchange);
   cells_.emplace(stepper, forced_ ? CellStatus::forced : CellStatus::fringe);
   this->tell(forced_ ? std::to_string(carving.n_forced) + " cells forced by the particles"
                      : std::to_string(carving.n_fringe) + " cells imposed by the particles, " +
@@ -50,7 +51,7 @@ StepReport Coupled<D>::advance(const coupler::Window& window, Stepper<D>& steppe
   warn_of_long_windows(window.dt());
   warn_of_many_substeps(window);
   const Schedule schedule = scene_.coupling.schedule.schedule;
-  const double flux_before = interface_mass_flux(stepper.blocks(), stepper.equations(), stepper.state());
+  const double flux_before = interface_->mass_flux(stepper.blocks(), stepper.equations(), stepper.state());
   StepReport total;
   Values values;
 
@@ -82,7 +83,7 @@ StepReport Coupled<D>::advance(const coupler::Window& window, Stepper<D>& steppe
   }
   cells_->accept(std::move(values), window.dt());
 
-  const double flux_after = interface_mass_flux(stepper.blocks(), stepper.equations(), stepper.state());
+  const double flux_after = interface_->mass_flux(stepper.blocks(), stepper.equations(), stepper.state());
   mass_flux_ += 0.5 * window.dt() * (flux_before + flux_after);
   coupler::Ledger mine;
   mine.fv_mass_flux = mass_flux_;
@@ -184,7 +185,7 @@ void Coupled<D>::warn_of_many_substeps(const coupler::Window& window) {
 }
 
 template <int D>
-void Coupled<D>::save(support::CheckpointWriter& file) const {
+void Coupled<D>::save(StateWriter<D>& file) const {
   file.put("fv_mass_flux", mass_flux_);
   cells_->save(file);
 }

@@ -7,6 +7,7 @@
 
 #include "companion.hpp"
 #include "coupling/donors.hpp"
+#include "coupling/interface_flux.hpp"
 #include "coupling/target_cells.hpp"
 #include "littoral/coupler/partner.hpp"
 #include "littoral/support/scene.hpp"
@@ -35,7 +36,7 @@ class Coupled : public Companion<D> {
   double waited() const override { return partner_->waited(); }
   std::string description() const override { return partner_->description(); }
 
-  void save(support::CheckpointWriter& file) const override;
+  void save(StateWriter<D>& file) const override;
   void load(const support::CheckpointReader& file) override;
 
   /// Of the last window, summed over both programs.
@@ -59,6 +60,7 @@ class Coupled : public Companion<D> {
   bool forced_;
   std::optional<DonorOffer<D>> offer_;
   std::optional<TargetCells<D>> cells_;
+  std::optional<InterfaceFlux<D>> interface_;
   coupler::DonorValues donors_, result_;
   coupler::Samples samples_;
   coupler::Ledger ledger_;

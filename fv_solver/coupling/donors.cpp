@@ -24,45 +24,55 @@ std::ptrdiff_t inner_cell(const Block<D>& block, std::array<int, D> index) {
 }
 
 /// Rates of cells without an equation of their own, before they have a history: averages over neighbours
-/// that have one, layer by layer.
+/// that have one, layer by layer, across joins. in/out rate: cells; out known: 1 where there is one
 template <int D>
-void spread_rates(const Block<D>& block, State<D>& rate) {
-  std::vector<std::uint8_t> known(block.extent.size, 0);
-  std::vector<std::array<int, D>> waiting;
-  for_each_index<D>({}, block.extent.n, [&](const std::array<int, D>& index) {
-    const auto c = static_cast<std::size_t>(block.extent.at(index));
-    known[c] = block.solved[c] != 0.0;
-    if (block.status[c] == CellStatus::fringe) waiting.push_back(index);
-  });
-  for (std::size_t before = waiting.size() + 1; !waiting.empty() && waiting.size() < before;) {
-    before = waiting.size();
-    std::vector<std::array<int, D>> next;
-    std::vector<std::size_t> done;
-    for (const auto& index : waiting) {
-      const auto c = static_cast<std::size_t>(block.extent.at(index));
-      double n = 0.0;
-      std::array<double, D + 1> sum{};
-      for (std::size_t d = 0; d < D; ++d)
-        for (const int step : {-1, 1}) {
-          std::array<int, D> other = index;
-          other[d] += step;
-          if (!block.periodic[d] && (other[d] < 0 || other[d] >= block.extent.n[d])) continue;
-          const auto o = static_cast<std::size_t>(inner_cell<D>(block, other));
-          if (!known[o]) continue;
-          n += 1.0;
-          sum[0] += rate.p[o];
-          for (std::size_t k = 0; k < D; ++k) sum[k + 1] += rate.u[k][o];
+void spread_rates(const Stepper<D>& stepper, std::vector<State<D>>& rate) {
+  const std::vector<Block<D>>& blocks = stepper.blocks();
+  const Exchange<D>& exchange = stepper.exchange();
+  std::vector<Field> known;
+  std::vector<std::vector<std::ptrdiff_t>> waiting(blocks.size());
+  std::vector<std::vector<Field*>> fields(D + 2);  // [number][block]
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    known.push_back(blocks[b].solved);
+    for_each_index<D>({}, blocks[b].extent.n, [&](const std::array<int, D>& index) {
+      const std::ptrdiff_t c = blocks[b].extent.at(index);
+      if (blocks[b].status[static_cast<std::size_t>(c)] == CellStatus::fringe) waiting[b].push_back(c);
+    });
+  }
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    fields[0].push_back(&known[b]);
+    fields[1].push_back(&rate[b].p);
+    for (std::size_t k = 0; k < D; ++k) fields[k + 2].push_back(&rate[b].u[k]);
+  }
+  for (bool goes_on = true; goes_on;) {
+    exchange.scalars(blocks, fields, ScalarGhosts::cell_data);
+    bool reached = false;
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+      std::vector<std::ptrdiff_t> next, done;
+      for (const std::ptrdiff_t c : waiting[b]) {
+        double n = 0.0;
+        std::array<double, D + 1> sum{};
+        for (const std::ptrdiff_t stride : blocks[b].extent.stride)
+          for (const std::ptrdiff_t step : {-stride, stride}) {
+            const auto o = static_cast<std::size_t>(c + step);
+            if (known[b][o] == 0.0) continue;
+            n += 1.0;
+            sum[0] += rate[b].p[o];
+            for (std::size_t k = 0; k < D; ++k) sum[k + 1] += rate[b].u[k][o];
+          }
+        if (n == 0.0) {
+          next.push_back(c);
+          continue;
         }
-      if (n == 0.0) {
-        next.push_back(index);
-        continue;
+        rate[b].p[static_cast<std::size_t>(c)] = sum[0] / n;
+        for (std::size_t k = 0; k < D; ++k) rate[b].u[k][static_cast<std::size_t>(c)] = sum[k + 1] / n;
+        done.push_back(c);
       }
-      rate.p[c] = sum[0] / n;
-      for (std::size_t k = 0; k < D; ++k) rate.u[k][c] = sum[k + 1] / n;
-      done.push_back(c);
+      for (const std::ptrdiff_t c : done) known[b][static_cast<std::size_t>(c)] = 1.0;
+      reached = reached || !done.empty();
+      waiting[b] = std::move(next);
     }
-    for (const std::size_t c : done) known[c] = 1;
-    waiting = std::move(next);
+    goes_on = exchange.ranks().any(reached);
   }
 }
 
@@ -79,16 +89,23 @@ void put(const State<D>& q, const std::vector<std::size_t>& cell, std::size_t fi
 }  // namespace
 
 template <int D>
-DonorOffer<D>::DonorOffer(const std::vector<Block<D>>& blocks) {
+DonorOffer<D>::DonorOffer(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange) {
   constexpr int k_ghost_layers = 1;
+  std::vector<Field> usable;
   for (const auto& block : blocks) {
-    cells_.emplace_back();
-    coupler::DonorPatch patch = donor_patch(block, k_ghost_layers, cells_.back());
-    for (std::size_t i = 0; i < patch.size(); ++i) {  // a ghost is worth what the cell it continues is
-      const auto index = block.extent.index(static_cast<std::ptrdiff_t>(cells_.back()[i]));
+    usable.emplace_back(block.extent.size, 0.0);
+    for (std::size_t c = 0; c < block.extent.size; ++c) {
+      const auto index = block.extent.index(static_cast<std::ptrdiff_t>(c));
       const auto inner = static_cast<std::size_t>(inner_cell<D>(block, index));
-      patch.usable[i] = block.status[inner] == CellStatus::blanked ? 0 : 1;
+      usable.back()[c] = block.status[inner] == CellStatus::blanked ? 0.0 : 1.0;
     }
+  }
+  exchange.scalar(blocks, usable, ScalarGhosts::cell_data);
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    cells_.emplace_back();
+    coupler::DonorPatch patch = donor_patch(blocks[b], k_ghost_layers, cells_.back());
+    for (std::size_t i = 0; i < patch.size(); ++i)
+      patch.usable[i] = usable[b][cells_.back()[i]] != 0.0 ? 1 : 0;
     geometry_.patches.push_back(std::move(patch));
   }
 }
@@ -106,27 +123,35 @@ void DonorOffer<D>::put_state(const std::vector<State<D>>& state, coupler::Donor
 template <int D>
 void DonorOffer<D>::put_rates(const Stepper<D>& stepper, coupler::DonorValues& values) const {
   values.resize(geometry_.size(), false);
+  const std::vector<State<D>> rate = rates(stepper);
   std::size_t first = 0;
   for (std::size_t b = 0; b < cells_.size(); ++b) {
-    put<D>(rates(stepper, b), cells_[b], first, values.dp_dt, {&values.du_dt, &values.dv_dt, &values.dw_dt});
+    put<D>(rate[b], cells_[b], first, values.dp_dt, {&values.du_dt, &values.dv_dt, &values.dw_dt});
     first += cells_[b].size();
   }
 }
 
 template <int D>
-State<D> rates(const Stepper<D>& stepper, std::size_t b) {
-  const Block<D>& block = stepper.blocks()[b];
-  State<D> rate;
-  stepper.time_derivative(b, rate);
+std::vector<State<D>> rates(const Stepper<D>& stepper) {
+  const std::vector<Block<D>>& blocks = stepper.blocks();
+  std::vector<State<D>> rate(blocks.size());
+  for (std::size_t b = 0; b < blocks.size(); ++b) stepper.time_derivative(b, rate[b]);
   if (stepper.steps() > 0) return rate;
-  spread_rates(block, rate);
-  for (std::size_t c = 0; c < block.extent.size; ++c) {  // ghosts change as the cells they continue
-    const auto inner =
-        static_cast<std::size_t>(inner_cell<D>(block, block.extent.index(static_cast<std::ptrdiff_t>(c))));
-    if (inner == c) continue;
-    rate.p[c] = rate.p[inner];
-    for (auto& u : rate.u) u[c] = u[inner];
+  spread_rates(stepper, rate);
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    for (std::size_t c = 0; c < blocks[b].extent.size; ++c) {  // ghosts change as the cells they continue
+      const auto inner = static_cast<std::size_t>(
+          inner_cell<D>(blocks[b], blocks[b].extent.index(static_cast<std::ptrdiff_t>(c))));
+      if (inner == c) continue;
+      rate[b].p[c] = rate[b].p[inner];
+      for (auto& u : rate[b].u) u[c] = u[inner];
+    }
+  std::vector<std::vector<Field*>> fields(D + 1);
+  for (auto& r : rate) {
+    fields[0].push_back(&r.p);
+    for (std::size_t k = 0; k < D; ++k) fields[k + 1].push_back(&r.u[k]);
   }
+  stepper.exchange().scalars(blocks, fields, ScalarGhosts::cell_data);
   return rate;
 }
 
@@ -142,10 +167,15 @@ void DonorOffer<D>::put_secant(const coupler::DonorValues& end, double dt, coupl
 }
 
 template <int D>
-void check_layers_covered(const coupler::DonorGeometry& geometry, const support::Scene& scene) {
+void check_layers_covered(const coupler::DonorGeometry& geometry, const support::Scene& scene,
+                          const Ranks& ranks) {
   constexpr int k_points = 33;  // along each direction of a face
   constexpr std::array<const char*, 3> k_axis{"x", "y", "z"};
   const coupler::DonorSearch search(geometry, D);
+  // the points are the same on all ranks, and asked for in the same order
+  const auto found_anywhere = [&](const coupler::Vec3& x, std::int64_t& hint) {
+    return ranks.any(search.find(x, hint).found);
+  };
   const double width = scene.coupling.blending_width + scene.coupling.driven_width;
   for (std::size_t r = 0; r < scene.regions.size(); ++r) {
     const auto& region = scene.regions[r];
@@ -170,7 +200,7 @@ void check_layers_covered(const coupler::DonorGeometry& geometry, const support:
             x[b] = lower[b] + (upper[b] - lower[b]) * (index[e] + 0.5) / k_points;
           }
           x[a] = side == 0 ? lower[a] : upper[a];
-          if (search.find(x, hint).found) return;
+          if (found_anywhere(x, hint)) return;
           // above the water no donors are needed where the grid ends inside the layers of another face
           for (std::size_t e = 0; e < D; ++e) {
             const std::size_t b = axis_in_space<D>(e);
@@ -192,11 +222,11 @@ void check_layers_covered(const coupler::DonorGeometry& geometry, const support:
   }
 }
 
-template State<2> rates(const Stepper<2>&, std::size_t);
-template State<3> rates(const Stepper<3>&, std::size_t);
+template std::vector<State<2>> rates(const Stepper<2>&);
+template std::vector<State<3>> rates(const Stepper<3>&);
 template class DonorOffer<2>;
 template class DonorOffer<3>;
-template void check_layers_covered<2>(const coupler::DonorGeometry&, const support::Scene&);
-template void check_layers_covered<3>(const coupler::DonorGeometry&, const support::Scene&);
+template void check_layers_covered<2>(const coupler::DonorGeometry&, const support::Scene&, const Ranks&);
+template void check_layers_covered<3>(const coupler::DonorGeometry&, const support::Scene&, const Ranks&);
 
 }  // namespace littoral::fv

@@ -8,12 +8,14 @@
 
 namespace littoral::fv {
 
-/// The cells offered to the particles: per block one patch of all cells and one layer of ghosts. A cell is
-/// usable where it holds a state (computed, forced or fringe), a ghost where the cell it continues does.
+/// The cells offered to the particles: per block of this rank one patch of all cells and one layer of ghosts.
+/// A cell is usable where it holds a state (computed, forced or fringe), a ghost where the cell does that it
+/// stands for, or else continues.
 template <int D>
 class DonorOffer {
  public:
-  explicit DonorOffer(const std::vector<Block<D>>& blocks);
+  /// comm neighbours
+  DonorOffer(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange);
   coupler::DonorGeometry& geometry() { return geometry_; }
   const coupler::DonorGeometry& geometry() const { return geometry_; }
 
@@ -29,15 +31,17 @@ class DonorOffer {
   coupler::DonorGeometry geometry_;
 };
 
-/// Time derivative at the stepper's time of all cells of a block that hold a state, ghosts included. Imposed
-/// cells: from their own history; before there is one, from the nearest cells that have a rate.
+/// Time derivative at the stepper's time of all cells of all blocks that hold a state, ghosts included.
+/// Imposed cells: from their own history; before there is one, from the nearest cells that have a rate. comm
+/// collective
 template <int D>
-State<D> rates(const Stepper<D>& stepper, std::size_t block);
+std::vector<State<D>> rates(const Stepper<D>& stepper);
 
 /// The driven and blending layers outside every open face of the region must find donors: checked at points
-/// on a lattice over their outer faces.
+/// on a lattice over their outer faces. geometry: of this rank's blocks. comm collective
 /// throws ConfigError naming the region, the face and the point
 template <int D>
-void check_layers_covered(const coupler::DonorGeometry& geometry, const support::Scene& scene);
+void check_layers_covered(const coupler::DonorGeometry& geometry, const support::Scene& scene,
+                          const Ranks& ranks = {});
 
 }  // namespace littoral::fv

@@ -14,41 +14,53 @@ double face_value(double before, double left, double right, double after) {
 }  // namespace
 
 template <int D>
-double interface_mass_flux(const std::vector<Block<D>>& blocks, const Equations<D>& equations,
-                           const std::vector<State<D>>& state) {
-  double flux = 0.0;
+InterfaceFlux<D>::InterfaceFlux(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange)
+    : ranks_(exchange.ranks()) {
+  std::vector<Field> fringe;  // 1 in fringe cells, and ghosts that stand for one
+  for (const Block<D>& block : blocks) {
+    fringe.emplace_back(block.extent.size, 0.0);
+    for_each_index<D>({}, block.extent.n, [&](const std::array<int, D>& index) {
+      const auto c = static_cast<std::size_t>(block.extent.at(index));
+      if (block.status[c] == CellStatus::fringe) fringe.back()[c] = 1.0;
+    });
+  }
+  exchange.scalar(blocks, fringe, ScalarGhosts::cell_data);
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const Block<D>& block = blocks[b];
-    const State<D>& q = state[b];
     for_each_index<D>({}, block.extent.n, [&](const std::array<int, D>& index) {
       const std::ptrdiff_t cell = block.extent.at(index);
       if (block.status[static_cast<std::size_t>(cell)] != CellStatus::computed) return;
       for (std::size_t d = 0; d < D; ++d)
-        for (const int step : {-1, 1}) {
-          std::array<int, D> other = index;
-          other[d] += step;
-          if (block.periodic[d]) other[d] = (other[d] + block.extent.n[d]) % block.extent.n[d];
-          if (other[d] < 0 || other[d] >= block.extent.n[d]) continue;
-          if (block.status[static_cast<std::size_t>(block.extent.at(other))] != CellStatus::fringe) continue;
-          const std::ptrdiff_t s = step * block.extent.stride[d];  // ghosts hold the periodic images
-          const auto at = [&](const Field& f) {
-            return face_value(f[static_cast<std::size_t>(cell - s)], f[static_cast<std::size_t>(cell)],
-                              f[static_cast<std::size_t>(cell + s)],
-                              f[static_cast<std::size_t>(cell + 2 * s)]);
-          };
-          const auto face = static_cast<std::size_t>(step < 0 ? cell : cell + s);
-          double flow = 0.0;
-          for (std::size_t k = 0; k < D; ++k) flow += step * at(q.u[k]) * block.area[d][k][face];
-          flux += equations.fluid.rho(at(q.p)) * flow;
-        }
+        for (const int step : {-1, 1})
+          if (fringe[b][static_cast<std::size_t>(cell + step * block.extent.stride[d])] != 0.0)
+            faces_.push_back({b, d, cell, step});
     });
   }
-  return flux;
 }
 
-template double interface_mass_flux(const std::vector<Block<2>>&, const Equations<2>&,
-                                    const std::vector<State<2>>&);
-template double interface_mass_flux(const std::vector<Block<3>>&, const Equations<3>&,
-                                    const std::vector<State<3>>&);
+template <int D>
+double InterfaceFlux<D>::mass_flux(const std::vector<Block<D>>& blocks, const Equations<D>& equations,
+                                   const std::vector<State<D>>& state) const {
+  double flux = 0.0;
+  for (const Face& f : faces_) {
+    const Block<D>& block = blocks[f.block];
+    const State<D>& q = state[f.block];
+    const std::ptrdiff_t s =
+        f.step * block.extent.stride[f.direction];  // ghosts hold images and other blocks
+    const auto at = [&](const Field& field) {
+      return face_value(field[static_cast<std::size_t>(f.cell - s)], field[static_cast<std::size_t>(f.cell)],
+                        field[static_cast<std::size_t>(f.cell + s)],
+                        field[static_cast<std::size_t>(f.cell + 2 * s)]);
+    };
+    const auto face = static_cast<std::size_t>(f.step < 0 ? f.cell : f.cell + s);
+    double flow = 0.0;
+    for (std::size_t k = 0; k < D; ++k) flow += f.step * at(q.u[k]) * block.area[f.direction][k][face];
+    flux += equations.fluid.rho(at(q.p)) * flow;
+  }
+  return ranks_.sum(flux);
+}
+
+template class InterfaceFlux<2>;
+template class InterfaceFlux<3>;
 
 }  // namespace littoral::fv

@@ -6,13 +6,32 @@
 
 namespace littoral::fv {
 
-/// Mass flux through all faces between computed and fringe cells, into the SPH region: central, fourth order
-/// along the grid line, which is what the mean of both reconstructions is; the Riemann problem's dissipation
-/// is left out.
-/// in    state with ghosts current
-/// out   [kg/s] (per metre in 2-D)
+/// The faces between computed and fringe cells, also where they lie on joins.
 template <int D>
-double interface_mass_flux(const std::vector<Block<D>>& blocks, const Equations<D>& equations,
-                           const std::vector<State<D>>& state);
+class InterfaceFlux {
+ public:
+  /// comm neighbours
+  InterfaceFlux(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange);
+
+  /// Mass flux through all of them, of all ranks, into the SPH region: central, fourth order along the grid
+  /// line, which is what the mean of both reconstructions is; the Riemann problem's dissipation is left out.
+  /// in    state with ghosts current
+  /// out   [kg/s] (per metre in 2-D)
+  /// comm  collective
+  double mass_flux(const std::vector<Block<D>>& blocks, const Equations<D>& equations,
+                   const std::vector<State<D>>& state) const;
+
+ private:
+  struct Face {
+    std::size_t block = 0, direction = 0;
+    std::ptrdiff_t cell = 0;  // the computed one
+    int step = 1;             // along the direction, into the fringe
+  };
+  Ranks ranks_;
+  std::vector<Face> faces_;
+};
+
+extern template class InterfaceFlux<2>;
+extern template class InterfaceFlux<3>;
 
 }  // namespace littoral::fv

@@ -34,7 +34,8 @@ std::string key(const char* what, std::size_t block, std::size_t field) {
 }  // namespace
 
 template <int D>
-TargetCells<D>::TargetCells(const Stepper<D>& stepper, CellStatus status) {
+TargetCells<D>::TargetCells(const Stepper<D>& stepper, CellStatus status)
+    : status_(status), layout_(stepper.exchange().layout()) {
   now_.resize(stepper.blocks().size());
   for (std::size_t b = 0; b < stepper.blocks().size(); ++b) {
     const Block<D>& block = stepper.blocks()[b];
@@ -50,10 +51,11 @@ TargetCells<D>::TargetCells(const Stepper<D>& stepper, CellStatus status) {
     });
   }
   rate_ = before_ = now_;
+  const std::vector<State<D>> rate = rates(stepper);
   for (std::size_t b = 0; b < now_.size(); ++b) {
     take(stepper.state()[b], now_[b]);
     take(stepper.state()[b], before_[b]);
-    take(rates(stepper, b), rate_[b]);
+    take(rate[b], rate_[b]);
     known_.emplace_back(now_[b].cell.size(), std::uint8_t{1});
   }
   known_now_ = known_before_ = known_;
@@ -124,39 +126,97 @@ void TargetCells<D>::accept(std::vector<Imposed<D>> values, double dt) {
   dt_before_ = dt;
 }
 
+namespace {
+
+/// Cells of a whole block that take values, in its order; status: of all its cells, ghosts included
+template <int D, class Status>
+std::vector<std::size_t> cells_of(const Extent<D>& extent, const std::vector<Status>& status,
+                                  CellStatus wanted) {
+  std::vector<std::size_t> cells;
+  for_each_index<D>({}, extent.n, [&](const std::array<int, D>& index) {
+    const auto c = static_cast<std::size_t>(extent.at(index));
+    if (static_cast<CellStatus>(static_cast<int>(status[c])) == wanted) cells.push_back(c);
+  });
+  return cells;
+}
+
+}  // namespace
+
 template <int D>
-void TargetCells<D>::save(support::CheckpointWriter& file) const {
+void TargetCells<D>::save(StateWriter<D>& file) const {
   file.put("targets/dt_before", dt_before_);
-  for (std::size_t b = 0; b < now_.size(); ++b) {
-    const auto write = [&](const char* what, const Imposed<D>& values) {
-      std::size_t i = 0;
-      for_each_field<D>(values, [&](const Field& field) { file.put(key(what, b, i++), field); });
-    };
-    write("now", now_[b]);
-    write("before", before_[b]);
-    write("rate", rate_[b]);
-    file.put(key("known", b, 0), known_now_[b]);
-    file.put(key("known", b, 1), known_before_[b]);
-  }
+  const auto gather = [&](auto&& value_of) {  // value_of(own block, m)
+    std::vector<Field> own;
+    const std::vector<std::size_t> mine = layout_.owners.mine();
+    for (std::size_t i = 0; i < mine.size(); ++i) {
+      own.emplace_back(layout_.shape[mine[i]].extent.size, 0.0);
+      for (std::size_t m = 0; m < now_[i].cell.size(); ++m) own.back()[now_[i].cell[m]] = value_of(i, m);
+    }
+    std::vector<const Field*> fields;
+    for (const Field& field : own) fields.push_back(&field);
+    return gather_whole<D>(layout_, fields);
+  };
+  const std::vector<Field> is_one =
+      gather([&](std::size_t, std::size_t) { return static_cast<double>(status_); });
+  std::vector<std::vector<std::size_t>> cells;
+  for (std::size_t w = 0; w < is_one.size(); ++w)
+    cells.push_back(cells_of<D>(Extent<D>(layout_.whole[w].cells), is_one[w], status_));
+  const auto write = [&](const char* what, std::size_t i, auto sample, const std::vector<Field>& whole) {
+    for (std::size_t w = 0; w < whole.size(); ++w) {
+      std::vector<decltype(sample)> values;
+      for (const std::size_t c : cells[w]) values.push_back(static_cast<decltype(sample)>(whole[w][c]));
+      file.file()->put(key(what, w, i), values);
+    }
+  };
+  const auto write_all = [&](const char* what, const std::vector<Imposed<D>>& values) {
+    write(what, 0, 0.0, gather([&](std::size_t i, std::size_t m) { return values[i].p[m]; }));
+    for (std::size_t k = 0; k < D; ++k)
+      write(what, k + 1, 0.0, gather([&](std::size_t i, std::size_t m) { return values[i].u[k][m]; }));
+  };
+  write_all("now", now_);
+  write_all("before", before_);
+  write_all("rate", rate_);
+  const auto write_mask = [&](std::size_t index, const Mask& mask) {
+    write("known", index, std::uint8_t{0},
+          gather([&](std::size_t i, std::size_t m) { return static_cast<double>(mask[i][m]); }));
+  };
+  write_mask(0, known_now_);
+  write_mask(1, known_before_);
 }
 
 template <int D>
 void TargetCells<D>::load(const support::CheckpointReader& file) {
   dt_before_ = file.number("targets/dt_before");
-  for (std::size_t b = 0; b < now_.size(); ++b) {
+  const std::vector<std::size_t> mine = layout_.owners.mine();
+  for (std::size_t i = 0; i < mine.size(); ++i) {
+    const std::size_t w = layout_.part[mine[i]].whole;
+    const Extent<D> whole(layout_.whole[w].cells);
+    const std::vector<std::size_t> cells =
+        cells_of<D>(whole, file.bytes(StateWriter<D>::key("", w, "status")), status_);
+    const auto take = [&](const auto& values, auto&& put) {  // put(m, value)
+      if (values.size() != cells.size())
+        throw IoError("the checkpoint has other fringe or forced cells than this run");
+      Field field(whole.size, 0.0);
+      for (std::size_t n = 0; n < cells.size(); ++n) field[cells[n]] = static_cast<double>(values[n]);
+      const Field part = part_of<D>(layout_, mine[i], field);
+      for (std::size_t m = 0; m < now_[i].cell.size(); ++m) put(m, part[now_[i].cell[m]]);
+    };
     const auto read = [&](const char* what, Imposed<D>& values) {
-      std::size_t i = 0;
+      std::size_t n = 0;
       for_each_field<D>(values, [&](Field& field) {
-        field = file.doubles(key(what, b, i++));
-        if (field.size() != values.cell.size())
-          throw IoError("the checkpoint has other fringe or forced cells than this run");
+        take(file.doubles(key(what, w, n++)), [&](std::size_t m, double value) { field[m] = value; });
       });
     };
-    read("now", now_[b]);
-    read("before", before_[b]);
-    read("rate", rate_[b]);
-    known_[b] = known_now_[b] = file.bytes(key("known", b, 0));
-    known_before_[b] = file.bytes(key("known", b, 1));
+    read("now", now_[i]);
+    read("before", before_[i]);
+    read("rate", rate_[i]);
+    const auto read_mask = [&](std::size_t n, std::vector<std::uint8_t>& mask) {
+      take(file.bytes(key("known", w, n)),
+           [&](std::size_t m, double value) { mask[m] = static_cast<std::uint8_t>(value); });
+    };
+    read_mask(0, known_now_[i]);
+    known_[i] = known_now_[i];
+    read_mask(1, known_before_[i]);
   }
 }
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "dual_time/stepper.hpp"
+#include "io/state_file.hpp"
 #include "littoral/coupler/fields.hpp"
-#include "littoral/support/checkpoint.hpp"
 
 namespace littoral::fv {
 
@@ -35,10 +35,12 @@ class TargetCells {
   /// The window is over: `values` are those of its end, dt its length.
   void accept(std::vector<Imposed<D>> values, double dt);
 
-  void save(support::CheckpointWriter& file) const;
+  void save(StateWriter<D>& file) const;  // comm collective
   void load(const support::CheckpointReader& file);
 
  private:
+  CellStatus status_;
+  Layout<D> layout_;
   coupler::Targets targets_;
   std::vector<Imposed<D>> now_, rate_;  // values and their slope in time
   std::vector<Imposed<D>> before_;      // values one window ago

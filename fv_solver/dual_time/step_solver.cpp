@@ -1,5 +1,6 @@
 #include "dual_time/step_solver.hpp"
 
+#include <array>
 #include <cmath>
 
 #include "grid/loops.hpp"
@@ -58,7 +59,9 @@ double StepProblem<D>::norm(const std::vector<Residual<D>>& r) const {
       volume += row[1];
     }
   }
-  return volume > 0.0 ? std::sqrt(sum / volume) : 0.0;
+  std::array<double, 2> total{sum, volume};
+  exchange.ranks().sum(total);
+  return total[1] > 0.0 ? std::sqrt(total[0] / total[1]) : 0.0;
 }
 
 template struct StepProblem<2>;

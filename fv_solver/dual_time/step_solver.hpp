@@ -8,7 +8,8 @@
 
 namespace littoral::fv {
 
-/// The nonlinear equations of one time step, on all blocks: find q with residual 0.
+/// The nonlinear equations of one time step, on all blocks of all ranks (those here are this rank's): find q
+/// with residual 0.
 template <int D>
 struct StepProblem {
   std::vector<Block<D>>& blocks;
@@ -18,7 +19,7 @@ struct StepProblem {
   const std::vector<History<D>>& history;
   const std::vector<Forcing<D>>& forcing;
 
-  /// Refreshes the ghosts of q, then evaluates all residuals.
+  /// Refreshes the ghosts of q, then evaluates all residuals. comm collective, both
   void evaluate(std::vector<State<D>>& q, std::vector<Residual<D>>& r) const;
   /// Size of a residual as a velocity: rms over the solved cells, weighted with volume, of
   /// R_u/(rho0 V) / (a0 + c0/h) and h R_p/(rho0 V), h = V^(1/D)  [m/s]. NaN if any is.
@@ -46,7 +47,7 @@ class StepSolver {
  public:
   virtual ~StepSolver() = default;
   /// in/out q: the start, then the solution; ghosts current on return. Cells that are not solved keep their
-  /// values. comm local
+  /// values. comm collective
   virtual StepReport solve(const StepProblem<D>& problem, const InnerTolerance& tolerance,
                            std::vector<State<D>>& q) = 0;
 };

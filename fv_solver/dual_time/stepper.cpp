@@ -32,9 +32,14 @@ const char* const k_advice = "try a smaller step, a smaller dual_time.pseudo_cfl
 template <int D>
 Stepper<D>::Stepper(std::vector<Block<D>> blocks, const Equations<D>& equations,
                     std::unique_ptr<StepSolver<D>> inner, const InnerTolerance& tolerance,
-                    OversetLinks<D> overset)
+                    const OversetLinks<D>& overset)
+    : Stepper(std::move(blocks), Exchange<D>(blocks, overset), equations, std::move(inner), tolerance) {}
+
+template <int D>
+Stepper<D>::Stepper(std::vector<Block<D>>&& blocks, Exchange<D> exchange, const Equations<D>& equations,
+                    std::unique_ptr<StepSolver<D>> inner, const InnerTolerance& tolerance)
     : blocks_(std::move(blocks)),
-      exchange_(blocks_, std::move(overset)),
+      exchange_(std::move(exchange)),
       equations_(equations),
       inner_(std::move(inner)),
       tolerance_(tolerance),
@@ -44,6 +49,7 @@ Stepper<D>::Stepper(std::vector<Block<D>> blocks, const Equations<D>& equations,
     check_windows(block);
     set_reference_pressure(block, equations_.fluid);
   }
+  exchange_.share_references(blocks_);
   for (auto& level : level_) {
     level.resize(blocks_.size());
     for (std::size_t b = 0; b < blocks_.size(); ++b) level[b].resize(blocks_[b].extent.size);
@@ -242,6 +248,11 @@ void Stepper<D>::recall(const Memory& memory) {
 
 template <int D>
 void Stepper<D>::check(const std::string& advice) const {
+  exchange_.ranks().template together<StabilityError>([&] { check_own(advice); });
+}
+
+template <int D>
+void Stepper<D>::check_own(const std::string& advice) const {
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const Block<D>& block = blocks_[b];
     const State<D>& q = level_[0][b];

@@ -38,11 +38,16 @@ using SourceFunction = std::function<Source<D>(const std::array<double, D>& x, d
 
 /// Steps all blocks in time: BDF2, started by BDF1, each step solved by the inner solver.
 /// Keeps the levels before the last step, so that it can be undone and repeated with other fringe values.
+/// comm collective: initialise, advance, restore
 template <int D>
 class Stepper {
  public:
+  /// blocks: this rank's own; exchange: with all others
+  Stepper(std::vector<Block<D>>&& blocks, Exchange<D> exchange, const Equations<D>& equations,
+          std::unique_ptr<StepSolver<D>> inner, const InnerTolerance& tolerance);
+  /// All blocks are here.
   Stepper(std::vector<Block<D>> blocks, const Equations<D>& equations, std::unique_ptr<StepSolver<D>> inner,
-          const InnerTolerance& tolerance, OversetLinks<D> overset = {});
+          const InnerTolerance& tolerance, const OversetLinks<D>& overset = {});
 
   /// Sets the state everywhere from a formula, at time t; forgets older levels. throws StabilityError
   void initialise(const FlowFunction<D>& flow, double t);
@@ -94,7 +99,8 @@ class Stepper {
   BackwardDifference scheme(double dt) const;
   void set_history(const BackwardDifference& scheme, double t);
   void aim_sponges(double t);
-  void check(const std::string& advice) const;
+  void check(const std::string& advice) const;  // comm collective
+  void check_own(const std::string& advice) const;
 
   std::vector<Block<D>> blocks_;
   Exchange<D> exchange_;

@@ -9,8 +9,8 @@
 
 namespace littoral::fv {
 
-Anderson::Anderson(int depth, std::vector<double> weights)
-    : depth_(depth), weights_(weights.begin(), weights.end()) {
+Anderson::Anderson(int depth, std::vector<double> weights, const Ranks& ranks)
+    : depth_(depth), weights_(weights.begin(), weights.end()), ranks_(ranks) {
   if (depth < 0 || depth > k_max_depth) throw std::invalid_argument("depth of Anderson mixing: 0, 1 or 2");
   if (depth == 0) return;
   for (Entry& entry : entry_)
@@ -31,21 +31,21 @@ void Anderson::mix(const std::vector<double>& r, std::vector<double>& d) {
   // least squares || r - sum_i gamma_i (r - r_i) ||_w by normal equations
   double gamma1 = 0.0, gamma2 = 0.0;
   if (known_ > 0) {
-    const auto s =
-        ordered_sums<5>(n, [&](std::ptrdiff_t begin, std::ptrdiff_t end, std::array<double, 5>& sum) {
-          double a11 = 0.0, a12 = 0.0, a22 = 0.0, b1 = 0.0, b2 = 0.0;
+    auto s = ordered_sums<5>(n, [&](std::ptrdiff_t begin, std::ptrdiff_t end, std::array<double, 5>& sum) {
+      double a11 = 0.0, a12 = 0.0, a22 = 0.0, b1 = 0.0, b2 = 0.0;
 #pragma omp simd reduction(+ : a11, a12, a22, b1, b2)
-          for (std::ptrdiff_t i = begin; i < end; ++i) {
-            const double now = now_r[i], weight = static_cast<double>(w[i]);
-            const double d1 = now - static_cast<double>(r1[i]), d2 = now - static_cast<double>(r2[i]);
-            a11 += weight * d1 * d1;
-            a12 += weight * d1 * d2;
-            a22 += weight * d2 * d2;
-            b1 += weight * d1 * now;
-            b2 += weight * d2 * now;
-          }
-          sum = {a11, a12, a22, b1, b2};
-        });
+      for (std::ptrdiff_t i = begin; i < end; ++i) {
+        const double now = now_r[i], weight = static_cast<double>(w[i]);
+        const double d1 = now - static_cast<double>(r1[i]), d2 = now - static_cast<double>(r2[i]);
+        a11 += weight * d1 * d1;
+        a12 += weight * d1 * d2;
+        a22 += weight * d2 * d2;
+        b1 += weight * d1 * now;
+        b2 += weight * d2 * now;
+      }
+      sum = {a11, a12, a22, b1, b2};
+    });
+    ranks_.sum(s);
     constexpr double k_regular = 1e-12;  // differences that are parallel to round-off share their weight
     const double a11 = s[0] * (1.0 + k_regular), a22 = s[2] * (1.0 + k_regular), a12 = s[1];
     const double det = a11 * a22 - a12 * a12;

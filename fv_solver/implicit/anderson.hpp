@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "parallel/ranks.hpp"
+
 namespace littoral::fv {
 
 /// Anderson mixing of a preconditioned fixed-point iteration q <- q + d, where d = M^-1 (-r(q)): the new
@@ -14,12 +16,12 @@ class Anderson {
   static constexpr int k_max_depth = 2;
 
   /// throws std::invalid_argument where the depth is not 0, 1 or 2
-  Anderson(int depth, std::vector<double> weights);
+  Anderson(int depth, std::vector<double> weights, const Ranks& ranks = {});
 
   /// The change to apply to q, from the residual `r` at q and its own correction `d`. The caller applies all
   /// of it before it comes again. in    r residual at the present unknowns, d the preconditioned correction
   /// out   d the change towards the next iterate
-  /// comm local; OpenMP inside
+  /// comm collective: the unknowns are those of all ranks; OpenMP inside
   void mix(const std::vector<double>& r, std::vector<double>& d);
   void forget() { known_ = 0; }
 
@@ -29,6 +31,7 @@ class Anderson {
   };
   int depth_;
   std::vector<float> weights_;
+  Ranks ranks_;
   Entry entry_[k_max_depth];
   int newest_ = 0, known_ = 0;
 };

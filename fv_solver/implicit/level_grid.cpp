@@ -40,12 +40,9 @@ void LevelGrid<D>::set_edges(int d, int side, EdgeCondition condition) {
 }
 
 template <int D>
-std::array<int, D> coarsening_ratio(const LevelGrid<D>& fine) {
+std::array<int, D> coarsening_ratio(const std::array<int, D>& cells, const std::array<bool, D>& periodic) {
   std::array<int, D> ratio;
-  for (std::size_t d = 0; d < D; ++d) {
-    const int n = fine.extent.n[d];
-    ratio[d] = n >= 4 && !(fine.periodic[d] && n % 2 != 0) ? 2 : 1;
-  }
+  for (std::size_t d = 0; d < D; ++d) ratio[d] = cells[d] >= 4 && !(periodic[d] && cells[d] % 2 != 0) ? 2 : 1;
   return ratio;
 }
 
@@ -175,8 +172,8 @@ void fill_periodic(const LevelGrid<D>& grid, std::vector<Real>& values) {
 
 template struct LevelGrid<2>;
 template struct LevelGrid<3>;
-template std::array<int, 2> coarsening_ratio<2>(const LevelGrid<2>&);
-template std::array<int, 3> coarsening_ratio<3>(const LevelGrid<3>&);
+template std::array<int, 2> coarsening_ratio<2>(const std::array<int, 2>&, const std::array<bool, 2>&);
+template std::array<int, 3> coarsening_ratio<3>(const std::array<int, 3>&, const std::array<bool, 3>&);
 template LevelGrid<2> coarsen<2>(const LevelGrid<2>&, const std::array<int, 2>&);
 template LevelGrid<3> coarsen<3>(const LevelGrid<3>&, const std::array<int, 3>&);
 template void average_state<2>(const LevelGrid<2>&, const std::array<int, 2>&, const State<2>&,

@@ -73,7 +73,11 @@ void for_each_cell(const Extent<D>& extent, F&& f) {
 /// Which directions the next level halves: those with at least four cells (an odd last cell stays alone),
 /// periodic ones only while the count is even. All 1: nothing left to coarsen.
 template <int D>
-std::array<int, D> coarsening_ratio(const LevelGrid<D>& fine);
+std::array<int, D> coarsening_ratio(const std::array<int, D>& cells, const std::array<bool, D>& periodic);
+template <int D>
+std::array<int, D> coarsening_ratio(const LevelGrid<D>& fine) {
+  return coarsening_ratio<D>(fine.extent.n, fine.periodic);
+}
 
 /// The next level: areas and volumes are sums over the children, so a closed cell stays closed. A coarse cell
 /// is solved where at least half of its volume is.

@@ -9,22 +9,23 @@ bool halves(int first, int end, int n, bool odd_end_allowed) {
 }
 
 template <int D>
-bool may_halve(const JoinSide<D>& j, std::size_t d, const std::vector<const LevelGrid<D>*>& grids) {
+bool may_halve(const JoinSide<D>& j, std::size_t d, const std::vector<BlockShape<D>>& shapes) {
   const auto a = static_cast<std::size_t>(j.there.axis[d]);
   // an odd cell stays alone at the upper end: on both sides in the same place only if both run the same way
-  const bool same_end = !j.there.reversed[d] && j.there.upper[a] == grids[j.there.block]->extent.n[a] &&
-                        j.upper[d] == grids[j.block]->extent.n[d];
-  return halves(j.lower[d], j.upper[d], grids[j.block]->extent.n[d], same_end) &&
-         halves(j.there.lower[a], j.there.upper[a], grids[j.there.block]->extent.n[a], same_end);
+  const bool same_end = !j.there.reversed[d] && j.there.upper[a] == shapes[j.there.block].extent.n[a] &&
+                        j.upper[d] == shapes[j.block].extent.n[d];
+  return halves(j.lower[d], j.upper[d], shapes[j.block].extent.n[d], same_end) &&
+         halves(j.there.lower[a], j.there.upper[a], shapes[j.there.block].extent.n[a], same_end);
 }
 
 }  // namespace
 
 template <int D>
-std::vector<std::array<int, D>> joint_ratios(const std::vector<const LevelGrid<D>*>& grids,
+std::vector<std::array<int, D>> joint_ratios(const std::vector<BlockShape<D>>& shapes,
                                              const std::vector<JoinSide<D>>& joins) {
   std::vector<std::array<int, D>> ratios;
-  for (const LevelGrid<D>* grid : grids) ratios.push_back(coarsening_ratio(*grid));
+  for (const BlockShape<D>& shape : shapes)
+    ratios.push_back(coarsening_ratio<D>(shape.extent.n, shape.periodic));
   for (bool changed = true; changed;) {
     changed = false;
     for (const JoinSide<D>& j : joins)
@@ -33,12 +34,24 @@ std::vector<std::array<int, D>> joint_ratios(const std::vector<const LevelGrid<D
         int& here = ratios[j.block][d];
         int& there = ratios[j.there.block][static_cast<std::size_t>(j.there.axis[d])];
         if (here == 1 && there == 1) continue;
-        if (here == there && may_halve(j, d, grids)) continue;
+        if (here == there && may_halve(j, d, shapes)) continue;
         here = there = 1;
         changed = true;
       }
   }
   return ratios;
+}
+
+template <int D>
+std::vector<BlockShape<D>> coarse_shapes(const std::vector<BlockShape<D>>& shapes,
+                                         const std::vector<std::array<int, D>>& ratios) {
+  std::vector<BlockShape<D>> coarse = shapes;
+  for (std::size_t b = 0; b < shapes.size(); ++b) {
+    std::array<int, D> n = shapes[b].extent.n;
+    for (std::size_t d = 0; d < D; ++d) n[d] = (n[d] + ratios[b][d] - 1) / ratios[b][d];
+    coarse[b].extent = Extent<D>(n);
+  }
+  return coarse;
 }
 
 template <int D>
@@ -59,10 +72,14 @@ std::vector<JoinSide<D>> coarse_joins(const std::vector<JoinSide<D>>& joins,
   return coarse;
 }
 
-template std::vector<std::array<int, 2>> joint_ratios<2>(const std::vector<const LevelGrid<2>*>&,
+template std::vector<std::array<int, 2>> joint_ratios<2>(const std::vector<BlockShape<2>>&,
                                                          const std::vector<JoinSide<2>>&);
-template std::vector<std::array<int, 3>> joint_ratios<3>(const std::vector<const LevelGrid<3>*>&,
+template std::vector<std::array<int, 3>> joint_ratios<3>(const std::vector<BlockShape<3>>&,
                                                          const std::vector<JoinSide<3>>&);
+template std::vector<BlockShape<2>> coarse_shapes<2>(const std::vector<BlockShape<2>>&,
+                                                     const std::vector<std::array<int, 2>>&);
+template std::vector<BlockShape<3>> coarse_shapes<3>(const std::vector<BlockShape<3>>&,
+                                                     const std::vector<std::array<int, 3>>&);
 template std::vector<JoinSide<2>> coarse_joins<2>(const std::vector<JoinSide<2>>&,
                                                   const std::vector<std::array<int, 2>>&);
 template std::vector<JoinSide<3>> coarse_joins<3>(const std::vector<JoinSide<3>>&,

@@ -8,15 +8,16 @@
 namespace littoral::fv {
 
 template <int D>
-LevelOverlap<D> level_overlap(const std::vector<Block<D>>& blocks) {
+LevelOverlap<D> level_overlap(const std::vector<Block<D>>& blocks, const Layout<D>& layout) {
   LevelOverlap<D> overlap;
   const auto interpolated = [](const Block<D>& block) {
     return std::find(block.status.begin(), block.status.end(), CellStatus::interpolated) !=
            block.status.end();
   };
-  if (std::none_of(blocks.begin(), blocks.end(), interpolated)) return overlap;
-  overlap.component = components(blocks);
-  overlap.period = periods(blocks);
+  overlap.any = layout.owners.ranks.any(std::any_of(blocks.begin(), blocks.end(), interpolated));
+  if (!overlap.any) return overlap;
+  overlap.component = layout.component;
+  overlap.period = layout.period;
   for (const Block<D>& block : blocks) overlap.centre.push_back(block.centre);
   return overlap;
 }
@@ -24,18 +25,20 @@ LevelOverlap<D> level_overlap(const std::vector<Block<D>>& blocks) {
 template <int D>
 LevelOverlap<D> coarsen_overlap(const LevelOverlap<D>& fine,
                                 const std::vector<const LevelGrid<D>*>& fine_grids,
-                                const std::vector<std::array<int, D>>& ratios,
                                 const std::vector<const LevelGrid<D>*>& coarse_grids) {
   LevelOverlap<D> coarse;
+  coarse.any = fine.any;
   coarse.component = fine.component;
   coarse.period = fine.period;
   for (std::size_t b = 0; b < fine.centre.size(); ++b) {
     const LevelGrid<D>&from = *fine_grids[b], &to = *coarse_grids[b];
+    std::array<int, D> ratio;
+    for (std::size_t d = 0; d < D; ++d) ratio[d] = from.extent.n[d] == to.extent.n[d] ? 1 : 2;
     VectorField<D> centre;
     for (auto& component : centre) component.assign(to.extent.size, 0.0);
     for_each_cell<D>(from.extent, [&](const std::array<int, D>& index, std::ptrdiff_t c) {
       std::array<int, D> up;
-      for (std::size_t d = 0; d < D; ++d) up[d] = index[d] / ratios[b][d];
+      for (std::size_t d = 0; d < D; ++d) up[d] = index[d] / ratio[d];
       const auto f = static_cast<std::size_t>(c), p = static_cast<std::size_t>(to.extent.at(up));
       for (std::size_t k = 0; k < D; ++k)
         centre[k][p] += fine.centre[b][k][f] * from.volume[f] / to.volume[p];
@@ -48,7 +51,7 @@ LevelOverlap<D> coarsen_overlap(const LevelOverlap<D>& fine,
 namespace {
 
 /// Ghosts beyond an overset face with a solved cell beside it, as on coarse levels, where the fringe is less
-/// than half a cell: one cell further out, their places continue the centres.
+/// than half a cell: one cell further out, their places continue the centres. b: among all blocks
 template <int D>
 void add_open_ghosts(const LevelGrid<D>& grid, const GhostSources<D>& sources, std::size_t b,
                      VectorField<D>& centre, std::vector<CellName<D>>& receivers) {
@@ -69,62 +72,93 @@ void add_open_ghosts(const LevelGrid<D>& grid, const GhostSources<D>& sources, s
   });
 }
 
+/// Of all blocks: centres, and 1 where a cell is solved.
+template <int D>
+struct AllCells {
+  std::vector<VectorField<D>> centre;
+  std::vector<std::vector<std::uint8_t>> solved;
+
+  AllCells(const std::vector<VectorField<D>>& own, const std::vector<const LevelGrid<D>*>& grids,
+           const std::vector<BlockShape<D>>& shapes, const Owners& owners) {
+    std::vector<double> x;
+    std::vector<std::uint8_t> is;
+    for (std::size_t i = 0; i < grids.size(); ++i)
+      for_each_cell<D>(grids[i]->extent, [&](const auto&, std::ptrdiff_t c) {
+        for (const Field& component : own[i]) x.push_back(component[static_cast<std::size_t>(c)]);
+        is.push_back(grids[i]->solved(c) ? 1 : 0);
+      });
+    const std::vector<double> all_x = owners.ranks.gather(x);
+    const std::vector<std::uint8_t> all_is = owners.ranks.gather(is);
+    std::size_t at = 0;  // in the order of the ranks, of each its blocks
+    centre.resize(shapes.size());
+    solved.resize(shapes.size());
+    for (int rank = 0; rank < owners.ranks.size(); ++rank)
+      for (std::size_t b = 0; b < shapes.size(); ++b) {
+        if (owners.rank[b] != rank) continue;
+        for (auto& component : centre[b]) component.assign(shapes[b].extent.size, 0.0);
+        solved[b].assign(shapes[b].extent.size, 0);
+        for_each_cell<D>(shapes[b].extent, [&](const auto&, std::ptrdiff_t c) {
+          for (std::size_t k = 0; k < D; ++k) centre[b][k][static_cast<std::size_t>(c)] = all_x[at * D + k];
+          solved[b][static_cast<std::size_t>(c)] = all_is[at++];
+        });
+      }
+  }
+};
+
 }  // namespace
 
 template <int D>
 void link_corrections(LevelOverlap<D>& overlap, const std::vector<const LevelGrid<D>*>& grids,
-                      const std::vector<JoinSide<D>>& joins) {
+                      const std::vector<BlockShape<D>>& shapes, const std::vector<JoinSide<D>>& joins,
+                      const Owners& owners) {
   std::vector<Extent<D>> extents;
   std::vector<std::array<bool, D>> periodic;
-  for (const LevelGrid<D>* grid : grids) {
-    extents.push_back(grid->extent);
-    periodic.push_back(grid->periodic);
+  for (const BlockShape<D>& shape : shapes) {
+    extents.push_back(shape.extent);
+    periodic.push_back(shape.periodic);
   }
   const GhostSources<D> sources(extents, periodic, overlap.period, joins);
+  AllCells<D> cells(overlap.centre, grids, shapes, owners);
   std::vector<OverlapBlock<D>> blocks;
-  for (std::size_t b = 0; b < grids.size(); ++b) {
-    OverlapBlock<D> block{&extents[b], &overlap.centre[b], {}, overlap.component[b]};
-    block.usable.assign(extents[b].size, 0);
-    for_each_cell<D>(extents[b], [&](const auto&, std::ptrdiff_t c) {
-      block.usable[static_cast<std::size_t>(c)] = grids[b]->solved(c);
-    });
-    blocks.push_back(std::move(block));
-  }
+  for (std::size_t b = 0; b < shapes.size(); ++b)
+    blocks.push_back({&extents[b], &cells.centre[b], cells.solved[b], overlap.component[b]});
   std::vector<CellName<D>> fringes, holes, orphans;
-  for (std::size_t b = 0; b < grids.size(); ++b)
+  const std::vector<std::size_t> mine = owners.mine();
+  for (std::size_t i = 0; i < grids.size(); ++i) {
+    const std::size_t b = mine[i];
     for_each_cell<D>(extents[b], [&](const auto&, std::ptrdiff_t c) {
-      const CellStatus status = grids[b]->status[static_cast<std::size_t>(c)];
+      const CellStatus status = grids[i]->status[static_cast<std::size_t>(c)];
       if (status != CellStatus::interpolated && status != CellStatus::blanked) return;
       bool beside = false;
       for (std::size_t d = 0; d < D; ++d)
         for (const std::ptrdiff_t step : {-extents[b].stride[d], extents[b].stride[d]}) {
           const GhostSource<D>* ghost = sources.find(b, c + step);
           beside = beside ||
-                   (ghost != nullptr ? blocks[ghost->block].usable[static_cast<std::size_t>(ghost->cell)] != 0
-                                     : blocks[b].usable[static_cast<std::size_t>(c + step)] != 0);
+                   (ghost != nullptr ? cells.solved[ghost->block][static_cast<std::size_t>(ghost->cell)] != 0
+                                     : cells.solved[b][static_cast<std::size_t>(c + step)] != 0);
         }
       if (beside) (status == CellStatus::interpolated ? fringes : holes).push_back({b, c});
     });
-  for (std::size_t b = 0; b < grids.size(); ++b)
-    add_open_ghosts<D>(*grids[b], sources, b, overlap.centre[b], fringes);
-  overlap.links = find_donors<D>(blocks, sources, fringes, true, orphans);
+    add_open_ghosts<D>(*grids[i], sources, b, cells.centre[b], fringes);
+  }
+  OversetLinks<D> links = find_donors<D>(blocks, sources, fringes, true, orphans);
   // a hole beside solved cells is a region's where no other component is near: its correction stays 0
   const OversetLinks<D> further = find_donors<D>(blocks, sources, holes, false, orphans);
-  overlap.links.receivers.insert(overlap.links.receivers.end(), further.receivers.begin(),
-                                 further.receivers.end());
+  links.receivers.insert(links.receivers.end(), further.receivers.begin(), further.receivers.end());
+  overlap.links = DonorLinks<D>(links, owners);
 }
 
-template LevelOverlap<2> level_overlap<2>(const std::vector<Block<2>>&);
-template LevelOverlap<3> level_overlap<3>(const std::vector<Block<3>>&);
+template LevelOverlap<2> level_overlap<2>(const std::vector<Block<2>>&, const Layout<2>&);
+template LevelOverlap<3> level_overlap<3>(const std::vector<Block<3>>&, const Layout<3>&);
 template LevelOverlap<2> coarsen_overlap<2>(const LevelOverlap<2>&, const std::vector<const LevelGrid<2>*>&,
-                                            const std::vector<std::array<int, 2>>&,
                                             const std::vector<const LevelGrid<2>*>&);
 template LevelOverlap<3> coarsen_overlap<3>(const LevelOverlap<3>&, const std::vector<const LevelGrid<3>*>&,
-                                            const std::vector<std::array<int, 3>>&,
                                             const std::vector<const LevelGrid<3>*>&);
 template void link_corrections<2>(LevelOverlap<2>&, const std::vector<const LevelGrid<2>*>&,
-                                  const std::vector<JoinSide<2>>&);
+                                  const std::vector<BlockShape<2>>&, const std::vector<JoinSide<2>>&,
+                                  const Owners&);
 template void link_corrections<3>(LevelOverlap<3>&, const std::vector<const LevelGrid<3>*>&,
-                                  const std::vector<JoinSide<3>>&);
+                                  const std::vector<BlockShape<3>>&, const std::vector<JoinSide<3>>&,
+                                  const Owners&);
 
 }  // namespace littoral::fv

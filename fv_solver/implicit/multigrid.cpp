@@ -17,16 +17,26 @@ struct Multigrid<D, Real>::BlockLevel {
 
 template <int D, class Real>
 struct Multigrid<D, Real>::Level {
-  std::vector<BlockLevel> blocks;
-  std::vector<JoinSide<D>> joins;
-  JoinLinks<D> links;  // first ghost layer
+  std::vector<BlockLevel> blocks;          // this rank's
+  std::vector<BlockShape<D>> shapes;       // of all blocks
+  std::vector<JoinSide<D>> joins;          // of all blocks
+  std::vector<std::array<int, D>> ratios;  // of all blocks, to the next level
+  JoinLinks<D> links;                      // first ghost layer
   LevelOverlap<D> overlap;
+  std::size_t n_steps = 0;  // of a sweep: colours of all directions, the most of any block of any rank
 
-  void set_joins(std::vector<JoinSide<D>> sides) {
-    joins = std::move(sides);
+  void set_links(const Owners& owners) {
     std::vector<Extent<D>> extents;
-    for (const auto& block : blocks) extents.push_back(block.grid.extent);
-    links = JoinLinks<D>(joins, extents, 1);
+    for (const auto& shape : shapes) extents.push_back(shape.extent);
+    links = JoinLinks<D>(joins, extents, 1, owners);
+  }
+  void count_steps(const Ranks& ranks) {
+    for (const auto& block : blocks) {
+      std::size_t colours = 0;
+      for (const auto& op : block.operators) colours += static_cast<std::size_t>(op.layout().n_colours());
+      n_steps = std::max(n_steps, colours);
+    }
+    n_steps = static_cast<std::size_t>(ranks.largest(static_cast<double>(n_steps)));
   }
   std::vector<const LevelGrid<D>*> grids() const {
     std::vector<const LevelGrid<D>*> all;
@@ -37,43 +47,48 @@ struct Multigrid<D, Real>::Level {
 
 template <int D, class Real>
 Multigrid<D, Real>::Multigrid(std::vector<LevelGrid<D>> blocks, const MultigridOptions& options,
-                              std::vector<JoinSide<D>> joins, LevelOverlap<D> overlap)
-    : options_(options) {
-  if (!joins.empty() || !overlap.empty()) options_.coarsest_sweeps *= 2;
+                              const Layout<D>& layout, LevelOverlap<D> overlap)
+    : options_(options), owners_(layout.owners) {
+  if (!layout.joins.empty() || !overlap.empty()) options_.coarsest_sweeps *= 2;
+  const std::vector<std::size_t> mine = owners_.mine();
   levels_.push_back(std::make_unique<Level>());
   for (auto& grid : blocks) {
     levels_[0]->blocks.emplace_back();
     levels_[0]->blocks.back().grid = std::move(grid);
   }
-  levels_[0]->set_joins(std::move(joins));
+  levels_[0]->shapes = layout.shape;
+  levels_[0]->joins = layout.joins;
+  levels_[0]->set_links(owners_);
   levels_[0]->overlap = std::move(overlap);
   for (;;) {
     Level& level = *levels_.back();
     const std::vector<const LevelGrid<D>*> grids = level.grids();
-    if (!level.overlap.empty()) link_corrections<D>(level.overlap, grids, level.joins);
+    if (!level.overlap.empty()) link_corrections<D>(level.overlap, grids, level.shapes, level.joins, owners_);
     for (auto& block : level.blocks) {
       block.directions = stiff_directions(block.grid);
       for (int d : block.directions) block.operators.emplace_back(block.grid, d);
       for (Correction<D, Real>* field : {&block.b, &block.e, &block.r})
         field->assign_zero(block.grid.extent.size);
     }
-    const std::vector<std::array<int, D>> ratios = joint_ratios<D>(grids, level.joins);
+    level.count_steps(owners_.ranks);
+    level.ratios = joint_ratios<D>(level.shapes, level.joins);
     bool coarsens = false;
-    for (const auto& ratio : ratios)
+    for (const auto& ratio : level.ratios)
       for (int r : ratio) coarsens = coarsens || r > 1;
     if (!coarsens || static_cast<int>(levels_.size()) >= options_.max_levels) break;
     auto next = std::make_unique<Level>();
+    next->shapes = coarse_shapes<D>(level.shapes, level.ratios);
+    next->joins = coarse_joins<D>(level.joins, level.ratios);
     for (std::size_t i = 0; i < level.blocks.size(); ++i) {
       BlockLevel& block = level.blocks[i];
-      block.ratio = ratios[i];
+      block.ratio = level.ratios[mine[i]];
       next->blocks.emplace_back();
       next->blocks.back().grid = coarsen<D>(block.grid, block.ratio);
       block.transfer = std::make_unique<Transfer<D>>(block.grid, next->blocks.back().grid, block.ratio);
     }
-    next->set_joins(coarse_joins<D>(level.joins, ratios));
+    next->set_links(owners_);
     next->links.copy([&](std::size_t i) -> Field& { return next->blocks[i].grid.volume; }, true);
-    if (!level.overlap.empty())
-      next->overlap = coarsen_overlap<D>(level.overlap, grids, ratios, next->grids());
+    if (!level.overlap.empty()) next->overlap = coarsen_overlap<D>(level.overlap, grids, next->grids());
     levels_.push_back(std::move(next));
   }
   closed_ = true;
@@ -89,7 +104,24 @@ Multigrid<D, Real>::Multigrid(std::vector<LevelGrid<D>> blocks, const MultigridO
               condition != EdgeCondition::inflow && condition != EdgeCondition::link)
             closed_ = false;
   }
+  closed_ = !owners_.ranks.any(!closed_);
 }
+
+namespace {
+
+template <int D>
+Layout<D> apart(const std::vector<LevelGrid<D>>& blocks) {
+  Layout<D> layout;
+  layout.owners = Owners::all_here(blocks.size());
+  for (const auto& grid : blocks) layout.shape.push_back({grid.extent, grid.periodic});
+  return layout;
+}
+
+}  // namespace
+
+template <int D, class Real>
+Multigrid<D, Real>::Multigrid(std::vector<LevelGrid<D>> blocks, const MultigridOptions& options)
+    : Multigrid(blocks, options, apart(blocks), {}) {}
 
 template <int D, class Real>
 Multigrid<D, Real>::~Multigrid() = default;
@@ -131,9 +163,12 @@ void Multigrid<D, Real>::build(const std::vector<const State<D>*>& states,
     }
     if (coarsest) continue;
     Level& next = *levels_[l + 1];
-    next.links.copy([&](std::size_t i) -> Field& { return next.blocks[i].state.p; }, true);
-    for (std::size_t k = 0; k < D; ++k)
-      next.links.copy([&](std::size_t i) -> Field& { return next.blocks[i].state.u[k]; }, true);
+    std::vector<std::vector<double*>> fields;
+    for (auto& block : next.blocks) {
+      fields.push_back({block.state.p.data()});
+      for (auto& u : block.state.u) fields.back().push_back(u.data());
+    }
+    next.links.template copy_fields<double>(fields, true);
   }
 }
 
@@ -163,39 +198,44 @@ void Multigrid<D, Real>::exchange(Level& level) {
   if (!level.overlap.links.empty()) interpolate(level);
   for (auto& block : level.blocks)
     for (auto& field : block.e.q) fill_periodic(block.grid, field);
-  for (std::size_t k = 0; k <= D; ++k)
-    level.links.copy([&](std::size_t i) -> std::vector<Real>& { return level.blocks[i].e.q[k]; }, true);
+  level.links.template copy_fields<Real>(
+      pointers(level, [](BlockLevel& block) -> Correction<D, Real>& { return block.e; }), true);
+}
+
+template <int D, class Real>
+template <class FieldOf>
+std::vector<std::vector<Real*>> Multigrid<D, Real>::pointers(Level& level, FieldOf&& field_of) {
+  std::vector<std::vector<Real*>> fields;
+  for (auto& block : level.blocks) {
+    fields.emplace_back();
+    for (auto& field : field_of(block).q) fields.back().push_back(field.data());
+  }
+  return fields;
 }
 
 template <int D, class Real>
 void Multigrid<D, Real>::interpolate(Level& level) {
-  for (std::size_t k = 0; k <= D; ++k) {
-    level.overlap.links.interpolate(
-        [&](std::size_t i) -> std::vector<Real>& { return level.blocks[i].e.q[k]; });
-    for (const auto& r : level.overlap.links.receivers) {
-      BlockLevel& block = level.blocks[r.block];
-      const auto c = static_cast<std::size_t>(r.cell);
-      block.b.q[k][c] = block.e.q[k][c];
-    }
-  }
+  level.overlap.links.interpolate(
+      D + 1,
+      [&](std::size_t i, std::size_t c, double* value) {
+        for (std::size_t k = 0; k <= D; ++k) value[k] = static_cast<double>(level.blocks[i].e.q[k][c]);
+      },
+      [&](std::size_t i, std::size_t c, const double* value) {
+        BlockLevel& block = level.blocks[i];
+        for (std::size_t k = 0; k <= D; ++k) block.e.q[k][c] = block.b.q[k][c] = static_cast<Real>(value[k]);
+      });
 }
 
 template <int D, class Real>
 template <class FieldOf>
 void Multigrid<D, Real>::fill_for_transfer(Level& level, FieldOf&& field_of) {
   for (auto& block : level.blocks) fill_correction_ghosts(block.grid, field_of(block));
-  for (std::size_t k = 0; k <= D; ++k)
-    level.links.copy([&](std::size_t i) -> std::vector<Real>& { return field_of(level.blocks[i]).q[k]; });
+  level.links.template copy_fields<Real>(pointers(level, field_of));
 }
 
 template <int D, class Real>
 void Multigrid<D, Real>::sweep(Level& level, bool forward, bool from_zero) {
-  std::size_t steps = 0;  // colours of all directions, in turn
-  for (const auto& block : level.blocks) {
-    std::size_t colours = 0;
-    for (const auto& op : block.operators) colours += static_cast<std::size_t>(op.layout().n_colours());
-    steps = std::max(steps, colours);
-  }
+  const std::size_t steps = level.n_steps;
   for (std::size_t step = 0; step < steps; ++step) {
     for (auto& block : level.blocks) {
       std::size_t rest = forward ? step : steps - 1 - step;

@@ -25,8 +25,11 @@ struct MultigridOptions {
 template <int D, class Real>
 class Multigrid {
  public:
-  Multigrid(std::vector<LevelGrid<D>> blocks, const MultigridOptions& options,
-            std::vector<JoinSide<D>> joins = {}, LevelOverlap<D> overlap = {});
+  /// blocks: this rank's own. comm collective, as build and cycle
+  Multigrid(std::vector<LevelGrid<D>> blocks, const MultigridOptions& options, const Layout<D>& layout,
+            LevelOverlap<D> overlap);
+  /// Blocks that have nothing to do with each other, all on this rank.
+  Multigrid(std::vector<LevelGrid<D>> blocks, const MultigridOptions& options);
   ~Multigrid();
   Multigrid(Multigrid&&) noexcept;
   Multigrid& operator=(Multigrid&&) noexcept;
@@ -63,10 +66,13 @@ class Multigrid {
   /// Ghosts for the interpolation between levels, edges and corners included. field: of a block
   template <class FieldOf>
   void fill_for_transfer(Level& level, FieldOf&& field_of);
+  template <class FieldOf>
+  static std::vector<std::vector<Real*>> pointers(Level& level, FieldOf&& field_of);
   void descend(std::size_t l, bool fresh);
   void set_forcing(const std::vector<const Field*>& forcing);
   std::vector<std::unique_ptr<Level>> levels_;
   MultigridOptions options_;
+  Owners owners_;
   bool closed_ = false;
 };
 

@@ -71,12 +71,14 @@ struct MultigridSolver<D, Real>::Levels {
   std::vector<double> weights;  // 1/V for each unknown
   Anderson anderson;
   std::vector<double> r, d;  // scaled, flat: cells of block 0, then of block 1, ...; D+1 values a cell
-  double total_volume = 0.0;
+  Ranks ranks;
+  double total_volume = 0.0;  // of all ranks
 
-  Levels(const std::vector<Block<D>>& blocks, const MultigridSolverOptions& options)
+  Levels(const std::vector<Block<D>>& blocks, const Layout<D>& layout, const MultigridSolverOptions& options)
       : grids(all_grids(blocks)),
-        multigrid(grids, options.multigrid, join_sides(blocks), level_overlap(blocks)),
-        anderson(0, {}) {
+        multigrid(grids, options.multigrid, layout, level_overlap(blocks, layout)),
+        anderson(0, {}),
+        ranks(layout.owners.ranks) {
     for (const LevelGrid<D>& grid : grids) {
       cells.emplace_back();
       for_each_cell<D>(grid.extent, [&](const auto&, std::ptrdiff_t c) {
@@ -87,7 +89,8 @@ struct MultigridSolver<D, Real>::Levels {
       });
     }
     for (auto* field : {&r, &d}) field->resize(weights.size());
-    anderson = Anderson(options.anderson_depth, weights);
+    total_volume = ranks.sum(total_volume);
+    anderson = Anderson(options.anderson_depth, weights, ranks);
     rows.resize(blocks.size());
   }
 
@@ -97,11 +100,12 @@ struct MultigridSolver<D, Real>::Levels {
     return all;
   }
 
+  /// comm collective
   bool fits(const std::vector<Block<D>>& blocks) const {
-    if (blocks.size() != grids.size()) return false;
-    for (std::size_t b = 0; b < blocks.size(); ++b)
-      if (blocks[b].status != grids[b].status || blocks[b].extent.n != grids[b].extent.n) return false;
-    return true;
+    bool differs = blocks.size() != grids.size();
+    for (std::size_t b = 0; b < blocks.size() && !differs; ++b)
+      differs = blocks[b].status != grids[b].status || blocks[b].extent.n != grids[b].extent.n;
+    return !ranks.any(differs);
   }
 
   /// body(block, offset of the cell, place of its first value in the flat arrays) for every solved cell.
@@ -145,7 +149,7 @@ struct MultigridSolver<D, Real>::Levels {
           for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k)
             s[0] += d[k * (D + 1)] / weights[k * (D + 1)];
         });
-    const double mean = sum[0] / total_volume;  // the level of p is free: keep it where it was
+    const double mean = ranks.sum(sum[0]) / total_volume;  // the level of p is free: keep it where it was
     for (std::size_t k = 0; k < d.size(); k += D + 1) d[k] -= mean;
   }
 
@@ -168,10 +172,17 @@ struct MultigridSolver<D, Real>::Levels {
         for (std::size_t k = 0; k < D; ++k) speed = std::max(speed, std::abs(state[b].u[k][c]));
       }
     return 8.0 * std::numeric_limits<double>::epsilon() *
-           (speed + p / (physics.fluid.density * physics.speeds.c0));
+           ranks.largest(speed + p / (physics.fluid.density * physics.speeds.c0));
   }
 
+  /// comm collective
   [[noreturn]] void complain(const std::vector<Block<D>>& blocks, int cycle) const {
+    ranks.together<StabilityError>([&] { name_cell(blocks, cycle); });
+    throw StabilityError("the norm of the residual is not finite");
+  }
+
+  /// throws StabilityError where the residual of an own cell is not finite
+  void name_cell(const std::vector<Block<D>>& blocks, int cycle) const {
     std::size_t at = 0;
     for (std::size_t b = 0; b < cells.size(); ++b)
       for (const std::ptrdiff_t cell : cells[b])
@@ -183,7 +194,6 @@ struct MultigridSolver<D, Real>::Levels {
             throw StabilityError(place + "): the residual is not finite after " + std::to_string(cycle) +
                                  " inner cycles; try a smaller time step");
           }
-    throw StabilityError("the norm of the residual is not finite");
   }
 };
 
@@ -196,7 +206,7 @@ template <int D, class Real>
 StepReport MultigridSolver<D, Real>::solve(const StepProblem<D>& problem, const InnerTolerance& tolerance,
                                            std::vector<State<D>>& q) {
   if (!levels_ || !levels_->fits(problem.blocks))
-    levels_ = std::make_unique<Levels>(problem.blocks, options_);
+    levels_ = std::make_unique<Levels>(problem.blocks, problem.exchange.layout(), options_);
   Levels& levels = *levels_;
   CorrectionPhysics<D> physics{problem.equations.fluid, problem.equations.speeds, problem.time};
   std::vector<const Field*> rates;

@@ -1,5 +1,6 @@
 #include "io/checkpoint.hpp"
 
+#include "grid/loops.hpp"
 #include "grid/metrics.hpp"
 #include "littoral/error.hpp"
 #include "littoral/support/checkpoint.hpp"
@@ -7,17 +8,32 @@
 namespace littoral::fv {
 namespace {
 
-std::string key(std::size_t level, std::size_t block, const std::string& field) {
-  return "level" + std::to_string(level) + "/block" + std::to_string(block) + "/" + field;
+std::string group(std::size_t level) { return "level" + std::to_string(level) + "/"; }
+std::string component(std::size_t k) { return "u" + std::to_string(k); }
+
+template <int D>
+void put_statuses(StateWriter<D>& file, const std::vector<Block<D>>& blocks) {
+  std::vector<Field> status;
+  std::vector<const Field*> own;
+  for (const Block<D>& block : blocks) {
+    status.emplace_back();
+    for (const CellStatus s : block.status) status.back().push_back(static_cast<double>(s));
+  }
+  for (const Field& field : status) own.push_back(&field);
+  const std::vector<Field> whole = gather_whole<D>(file.layout(), own);
+  for (std::size_t w = 0; w < whole.size(); ++w) {
+    std::vector<std::uint8_t> bytes;
+    for (const double s : whole[w]) bytes.push_back(static_cast<std::uint8_t>(s));
+    file.file()->put(StateWriter<D>::key("", w, "status"), bytes);
+  }
 }
 
 }  // namespace
 
 template <int D>
 void write_checkpoint(const std::string& path, const Stepper<D>& stepper, std::int64_t window,
-                      const support::Scene& scene,
-                      const std::function<void(support::CheckpointWriter&)>& more) {
-  support::CheckpointWriter file(path);
+                      const support::Scene& scene, const std::function<void(StateWriter<D>&)>& more) {
+  StateWriter<D> file(path, stepper.exchange().layout());
   const auto memory = stepper.memory();
   file.put("program", std::string("fv_solver"));
   file.put("scene", scene.restart_digest);
@@ -26,15 +42,17 @@ void write_checkpoint(const std::string& path, const Stepper<D>& stepper, std::i
   file.put("known", static_cast<std::int64_t>(memory.known));
   file.put("steps", static_cast<std::int64_t>(memory.steps));
   file.put("dt", std::vector<double>(memory.dt.begin(), memory.dt.end()));
-  for (std::size_t b = 0; b < stepper.blocks().size(); ++b) {
-    std::vector<std::uint8_t> status;
-    for (const CellStatus s : stepper.blocks()[b].status) status.push_back(static_cast<std::uint8_t>(s));
-    file.put("block" + std::to_string(b) + "/status", status);
-    for (std::size_t level = 0; level < memory.level.size(); ++level) {
-      file.put(key(level, b, "p"), memory.level[level][b].p);
-      for (std::size_t k = 0; k < D; ++k)
-        file.put(key(level, b, "u" + std::to_string(k)), memory.level[level][b].u[k]);
-    }
+  const auto put = [&](const std::string& in, const std::string& name, auto&& field_of) {
+    std::vector<const Field*> own;
+    for (std::size_t b = 0; b < stepper.blocks().size(); ++b) own.push_back(&field_of(b));
+    file.put_fields(in, name, own);
+  };
+  put_statuses<D>(file, stepper.blocks());
+  for (std::size_t level = 0; level < memory.level.size(); ++level) {
+    const auto& states = memory.level[level];
+    put(group(level), "p", [&](std::size_t b) -> const Field& { return states[b].p; });
+    for (std::size_t k = 0; k < D; ++k)
+      put(group(level), component(k), [&](std::size_t b) -> const Field& { return states[b].u[k]; });
   }
   if (more) more(file);
   file.commit();
@@ -53,19 +71,29 @@ std::int64_t read_checkpoint(const std::string& path, Stepper<D>& stepper, const
   memory.steps = file.integer("steps");
   const std::vector<double> dt = file.doubles("dt");
   for (std::size_t k = 0; k < memory.dt.size(); ++k) memory.dt[k] = dt[k];
-  for (std::size_t b = 0; b < stepper.blocks().size(); ++b) {
-    Block<D>& block = stepper.blocks()[b];
-    const std::string name = "block" + std::to_string(b) + "/status";
+  const Layout<D>& layout = stepper.exchange().layout();
+  const std::vector<std::size_t> mine = layout.owners.mine();
+  for (auto& level : memory.level) level.resize(mine.size());
+  for (std::size_t i = 0; i < mine.size(); ++i) {
+    Block<D>& block = stepper.blocks()[i];
+    const std::size_t whole = layout.part[mine[i]].whole;
+    const auto read = [&](std::size_t level, const std::string& name) {
+      return part_of<D>(layout, mine[i], file.doubles(StateWriter<D>::key(group(level), whole, name)));
+    };
+    const std::string name = StateWriter<D>::key("", whole, "status");
     const auto status = file.has(name) ? file.bytes(name) : std::vector<std::uint8_t>();
-    if (status.size() != block.extent.size)
+    if (status.size() != Extent<D>(layout.whole[whole].cells).size)
       throw ConfigError(path + ": block '" + block.name + "' has other cells than the grid of this run");
-    for (std::size_t c = 0; c < status.size(); ++c) block.status[c] = static_cast<CellStatus>(status[c]);
+    const Field own = part_of<D>(layout, mine[i], Field(status.begin(), status.end()));
+    for_each_index<D>({}, block.extent.n, [&](const std::array<int, D>& index) {
+      const auto c = static_cast<std::size_t>(block.extent.at(index));
+      block.status[c] = static_cast<CellStatus>(static_cast<int>(own[c]));
+    });
     set_solved_mask(block);
     for (std::size_t level = 0; level < memory.level.size(); ++level) {
-      memory.level[level].resize(stepper.blocks().size());
-      State<D>& q = memory.level[level][b];
-      q.p = file.doubles(key(level, b, "p"));
-      for (std::size_t k = 0; k < D; ++k) q.u[k] = file.doubles(key(level, b, "u" + std::to_string(k)));
+      State<D>& q = memory.level[level][i];
+      q.p = read(level, "p");
+      for (std::size_t k = 0; k < D; ++k) q.u[k] = read(level, component(k));
     }
   }
   stepper.recall(memory);
@@ -73,9 +101,9 @@ std::int64_t read_checkpoint(const std::string& path, Stepper<D>& stepper, const
 }
 
 template void write_checkpoint<2>(const std::string&, const Stepper<2>&, std::int64_t, const support::Scene&,
-                                  const std::function<void(support::CheckpointWriter&)>&);
+                                  const std::function<void(StateWriter<2>&)>&);
 template void write_checkpoint<3>(const std::string&, const Stepper<3>&, std::int64_t, const support::Scene&,
-                                  const std::function<void(support::CheckpointWriter&)>&);
+                                  const std::function<void(StateWriter<3>&)>&);
 template std::int64_t read_checkpoint<2>(const std::string&, Stepper<2>&, const support::Scene&);
 template std::int64_t read_checkpoint<3>(const std::string&, Stepper<3>&, const support::Scene&);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <sstream>
 
 #include "grid/donor_patch.hpp"
 #include "littoral/error.hpp"
@@ -13,12 +14,18 @@ namespace {
 const char* const k_axes[] = {"x", "y", "z"};
 const char* const k_velocities[] = {"u", "v", "w"};
 
+/// Names of the windows of all ranks, each once.
 template <int D>
-bool has_wall(const std::vector<Block<D>>& blocks, const std::string& name) {
+std::vector<std::string> window_names(const std::vector<Block<D>>& blocks, const Ranks& ranks) {
+  std::string mine;
   for (const auto& block : blocks)
-    for (const auto& w : block.windows)
-      if (w.name == name) return true;
-  return false;
+    for (const auto& w : block.windows) mine += w.name + '\n';
+  const std::vector<char> all = ranks.gather(std::vector<char>(mine.begin(), mine.end()));
+  std::vector<std::string> names;
+  std::istringstream lines(std::string(all.begin(), all.end()));
+  for (std::string name; std::getline(lines, name);)
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  return names;
 }
 
 template <int D>
@@ -32,6 +39,8 @@ template <int D>
 Gauges<D>::Gauges(const std::vector<GaugeConfig>& gauges, const Stepper<D>& stepper)
     : gauges_(gauges), places_(gauges.size()) {
   const auto& blocks = stepper.blocks();
+  const Ranks& ranks = stepper.exchange().ranks();
+  const std::vector<std::string> names = window_names<D>(blocks, ranks);
   coupler::DonorGeometry geometry;
   std::vector<std::size_t> cells, block_of;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
@@ -42,10 +51,9 @@ Gauges<D>::Gauges(const std::vector<GaugeConfig>& gauges, const Stepper<D>& step
   for (std::size_t g = 0; g < gauges_.size(); ++g) {
     const GaugeConfig& gauge = gauges_[g];
     if (gauge.kind != GaugeConfig::Kind::point) {
-      if (has_wall(blocks, gauge.wall)) continue;
+      if (std::find(names.begin(), names.end(), gauge.wall) != names.end()) continue;
       std::string known;
-      for (const auto& block : blocks)
-        for (const auto& w : block.windows) known += (known.empty() ? "" : ", ") + w.name;
+      for (const std::string& name : names) known += (known.empty() ? "" : ", ") + name;
       throw ConfigError("gauge '" + gauge.name + "': no wall is named '" + gauge.wall + "'. Known: " + known);
     }
     if (!search) search = std::make_unique<coupler::DonorSearch>(geometry, D);
@@ -53,6 +61,9 @@ Gauges<D>::Gauges(const std::vector<GaugeConfig>& gauges, const Stepper<D>& step
     if (D == 2) at[1] = 0.0;
     std::int64_t hint = -1;
     const coupler::Donor donor = search->find(at, hint);
+    // beside a cut, ranks find the same place: the last of them reads it
+    const double reader = ranks.largest(donor.found ? ranks.rank() : -1.0);
+    if (reader >= 0.0 && reader != ranks.rank()) continue;
     if (!donor.found) {
       char text[96];
       std::snprintf(text, sizeof text, "(%g, %g, %g) m", at[0], at[1], at[2]);
@@ -92,6 +103,7 @@ std::vector<std::string> Gauges<D>::columns() const {
 
 template <int D>
 std::vector<double> Gauges<D>::values(const Stepper<D>& stepper) const {
+  const Ranks& ranks = stepper.exchange().ranks();
   std::vector<double> values;
   for (std::size_t g = 0; g < gauges_.size(); ++g) {
     const GaugeConfig& gauge = gauges_[g];
@@ -103,15 +115,17 @@ std::vector<double> Gauges<D>::values(const Stepper<D>& stepper) const {
         p += places_[g].weight[i] * q.p[places_[g].cell[i]];
         for (std::size_t k = 0; k < D; ++k) u[k] += places_[g].weight[i] * q.u[k][places_[g].cell[i]];
       }
+      p = ranks.sum(p);  // 0 on all ranks but one
+      ranks.sum(u);
       values.push_back(p);
       values.insert(values.end(), u.begin(), u.end());
     } else if (gauge.kind == GaugeConfig::Kind::y_plus) {
       const WallUnits units =
-          wall_units<D>(stepper.blocks(), stepper.equations(), stepper.state(), gauge.wall);
+          wall_units<D>(stepper.blocks(), stepper.equations(), stepper.state(), gauge.wall, ranks);
       values.insert(values.end(), {units.largest, units.mean});
     } else {
       const WallLoads loads = wall_loads<D>(stepper.blocks(), stepper.equations(), stepper.state(),
-                                            gauge.wall, gauge.moment_about);
+                                            gauge.wall, gauge.moment_about, ranks);
       for (const Load& load : {loads.total(), loads.dynamic(), loads.pressure, loads.viscous}) {
         for (std::size_t a = 0; a < 3; ++a)
           if (active<D>(a)) values.push_back(load.force[a]);

@@ -10,7 +10,8 @@
 
 namespace littoral::fv {
 
-/// The gauges of a run: columns `<gauge>.<quantity>` and their values now.
+/// The gauges of a run: columns `<gauge>.<quantity>` and their values now, the same on all ranks.
+/// comm collective: construction, values
 template <int D>
 class Gauges {
  public:
@@ -26,7 +27,7 @@ class Gauges {
     std::vector<double> weight;
   };
   std::vector<GaugeConfig> gauges_;
-  std::vector<Place> places_;  // one a gauge; empty for forces
+  std::vector<Place> places_;  // one a gauge; empty for forces, and where another rank reads it
 };
 
 }  // namespace littoral::fv

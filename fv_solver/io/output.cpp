@@ -17,16 +17,17 @@ const char* const k_axes[] = {"x", "y", "z"};
 
 /// Names the user gave to walls: those worth a column.
 template <int D>
-std::vector<std::string> named_walls(const FvConfig& config, const std::vector<Block<D>>& blocks) {
-  const std::vector<std::string> given = config.face_names();
+std::vector<std::string> named_walls(const FvConfig& config, const std::vector<Block<D>>& blocks,
+                                     const Ranks& ranks) {
   std::vector<std::string> walls;
-  for (const Block<D>& block : blocks)
-    for (const Window<D>& w : block.windows) {
-      const bool solid = w.condition == Condition::wall || w.condition == Condition::slip;
-      const bool named = std::find(given.begin(), given.end(), w.name) != given.end();
-      if (solid && named && std::find(walls.begin(), walls.end(), w.name) == walls.end())
-        walls.push_back(w.name);
-    }
+  for (const std::string& name : config.face_names()) {
+    bool solid = false;
+    for (const Block<D>& block : blocks)
+      for (const Window<D>& w : block.windows)
+        solid =
+            solid || (w.name == name && (w.condition == Condition::wall || w.condition == Condition::slip));
+    if (ranks.any(solid) && std::find(walls.begin(), walls.end(), name) == walls.end()) walls.push_back(name);
+  }
   return walls;
 }
 
@@ -49,20 +50,25 @@ Integrals integrate_all(const Stepper<D>& stepper, const std::vector<coupler::Bo
     sum.kinetic_energy += part.kinetic_energy;
     sum.potential_energy += part.potential_energy;
   }
-  return sum;
+  std::array<double, 3> total{sum.mass, sum.kinetic_energy, sum.potential_energy};
+  stepper.exchange().ranks().sum(total);
+  return {total[0], total[1], total[2]};
 }
 
 template <int D>
 Output<D>::Output(const std::string& folder, const FvConfig& config, const support::Scene& scene,
                   const Stepper<D>& stepper, const support::Timers& timers, bool restarted)
     : folder_(folder),
+      ranks_(stepper.exchange().ranks()),
       scene_(scene),
       options_(config.output),
       timers_(timers),
       gauges_(config.gauges, stepper),
-      walls_(named_walls<D>(config, stepper.blocks())) {
+      walls_(named_walls<D>(config, stepper.blocks(), ranks_)) {
   if (scene.has_region())
     for (const auto& region : scene.regions) regions_.push_back({region.lower, region.upper});
+  if (restarted) fields_written_at_ = stepper.time();
+  if (!ranks_.root()) return;
   std::vector<std::string> columns = {"time", "dt", "cycles", "drop", "kinetic_energy", "potential_energy",
                                       "mass"};
   for (const auto& wall : walls_)
@@ -81,7 +87,6 @@ Output<D>::Output(const std::string& folder, const FvConfig& config, const suppo
     gauge_rows_.emplace(series(folder + "/gauges.csv", names, D == 2 ? "SI; forces per metre of width" : "SI",
                                restarted, stepper.time()));
   }
-  if (restarted) fields_written_at_ = stepper.time();
   if (options_.fields) fields_.emplace(folder, "fields", restarted, stepper.time());
 }
 
@@ -92,28 +97,25 @@ void Output<D>::row(const Stepper<D>& stepper, const StepReport& report, double 
                                 report.drop(),  integrals_.kinetic_energy, integrals_.potential_energy,
                                 integrals_.mass};
   for (const auto& wall : walls_) {
-    const WallLoads loads = wall_loads<D>(stepper.blocks(), stepper.equations(), stepper.state(), wall, {});
+    const WallLoads loads =
+        wall_loads<D>(stepper.blocks(), stepper.equations(), stepper.state(), wall, {}, ranks_);
     for (const Load& load : {loads.total(), loads.dynamic()})
       for (std::size_t a = 0; a < 3; ++a)
         if (D == 3 || a != 1) values.push_back(load.force[a]);
   }
   for (const auto& phase : timers_.table()) values.push_back(phase.second);
   values.push_back(waited);
-  scalars_->row(values);
-  if (!gauge_rows_) return;
   std::vector<double> seen = gauges_.values(stepper);
   seen.insert(seen.begin(), stepper.time());
-  gauge_rows_->row(seen);
+  if (scalars_) scalars_->row(values);
+  if (gauge_rows_) gauge_rows_->row(seen);
 }
 
 template <int D>
 void Output<D>::fields(const Stepper<D>& stepper) {
-  if (!fields_ || fields_written_at_ == stepper.time()) return;
-  const DerivedFields derived{options_.vorticity, options_.q_criterion};
-  std::vector<support::FieldSeries::Block> blocks;
-  for (std::size_t b = 0; b < stepper.blocks().size(); ++b)
-    blocks.push_back(field_block<D>(stepper.blocks()[b], stepper.state()[b], derived));
-  fields_->write_blocks(stepper.time(), blocks);
+  if (!options_.fields || fields_written_at_ == stepper.time()) return;
+  const auto blocks = whole_field_blocks<D>(stepper, DerivedFields{options_.vorticity, options_.q_criterion});
+  if (fields_) fields_->write_blocks(stepper.time(), blocks);
   fields_written_at_ = stepper.time();
 }
 
@@ -139,7 +141,7 @@ void Output<D>::last(const Stepper<D>& stepper) {
 
 template <int D>
 bool Output<D>::fields_due(double time) const {
-  return fields_ && support::due(fields_written_at_, time, scene_.time.field_interval);
+  return options_.fields && support::due(fields_written_at_, time, scene_.time.field_interval);
 }
 
 template Integrals integrate_all<2>(const Stepper<2>&, const std::vector<coupler::Box>&);

@@ -17,7 +17,8 @@
 
 namespace littoral::fv {
 
-/// Everything a run leaves in OUT/fv: scalars.csv, gauges.csv, fields, checkpoints.
+/// Everything a run leaves in OUT/fv: scalars.csv, gauges.csv, fields, checkpoints. The root writes.
+/// comm collective
 template <int D>
 class Output {
  public:
@@ -46,6 +47,7 @@ class Output {
   void fields(const Stepper<D>& stepper);
 
   std::string folder_;
+  Ranks ranks_;
   support::Scene scene_;
   FvConfig::Output options_;
   const support::Timers& timers_;
@@ -58,7 +60,7 @@ class Output {
   double fields_written_at_ = -1.0;  // [s]
 };
 
-/// Share of all blocks' integrals outside the regions.
+/// Share of all blocks' integrals outside the regions. comm collective
 template <int D>
 Integrals integrate_all(const Stepper<D>& stepper, const std::vector<coupler::Box>& regions);
 

@@ -27,7 +27,7 @@ bool keeps_the_water(Condition condition) {
 }  // namespace
 
 template <int D>
-ClosedContour<D>::ClosedContour(const std::vector<Block<D>>& blocks) {
+ClosedContour<D>::ClosedContour(const std::vector<Block<D>>& blocks, const JoinLinks<D>& links) {
   for (const Block<D>& block : blocks)
     for (const Window<D>& window : block.windows)
       if (!keeps_the_water(window.condition)) return;
@@ -40,6 +40,13 @@ ClosedContour<D>::ClosedContour(const std::vector<Block<D>>& blocks) {
         found = std::min(found, component[b]);
     return found;
   }();
+  std::vector<Field> interpolated;  // 1 there, ghosts behind joins as the cells
+  for (const Block<D>& block : blocks) {
+    interpolated.emplace_back(block.extent.size, 0.0);
+    for (std::size_t c = 0; c < block.extent.size; ++c)
+      if (block.status[c] == CellStatus::interpolated) interpolated.back()[c] = 1.0;
+  }
+  links.copy([&](std::size_t b) -> Field& { return interpolated[b]; }, true);
   double area = 0.0;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     if (component[b] != lowest) continue;
@@ -53,7 +60,7 @@ ClosedContour<D>::ClosedContour(const std::vector<Block<D>>& blocks) {
       for (std::size_t d = 0; d < D; ++d)
         for (const int side : {0, 1}) {
           const auto other = static_cast<std::size_t>(c + (side == 0 ? -1 : 1) * block.extent.stride[d]);
-          if (block.status[other] != CellStatus::interpolated) continue;
+          if (interpolated[b][other] == 0.0) continue;
           const auto lower = side == 0 ? at : other;
           double s = 0.0;
           for (std::size_t k = 0; k < D; ++k) s += block.area[d][k][lower] * block.area[d][k][lower];
@@ -65,6 +72,23 @@ ClosedContour<D>::ClosedContour(const std::vector<Block<D>>& blocks) {
     });
   }
   for (Face& face : faces_) face.share /= area;
+  empty_ = faces_.empty();
+}
+
+template <int D>
+void ClosedContour<D>::keep(const Owners& owners) {
+  ranks_ = owners.ranks;
+  std::vector<Face> faces;
+  for (Face face : faces_)
+    if (owners.here(face.block)) {
+      face.block = owners.number[face.block];
+      faces.push_back(face);
+    }
+  std::vector<std::size_t> blocks;
+  for (const std::size_t b : blocks_)
+    if (owners.here(b)) blocks.push_back(owners.number[b]);
+  faces_ = std::move(faces);
+  blocks_ = std::move(blocks);
 }
 
 template <int D>
@@ -75,6 +99,7 @@ void ClosedContour<D>::close(const std::vector<Block<D>>& blocks, std::vector<Re
       const auto c = static_cast<std::size_t>(blocks[b].extent.at(index));
       if (blocks[b].solved[c] != 0.0) net += r[b].mass[c];
     });
+  net = ranks_.sum(net);
   for (const Face& face : faces_) r[face.block].mass[face.cell] -= net * face.share;
 }
 

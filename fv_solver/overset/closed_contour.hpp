@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "boundary/links.hpp"
 #include "grid/block.hpp"
 
 namespace littoral::fv {
@@ -14,11 +15,15 @@ template <int D>
 class ClosedContour {
  public:
   ClosedContour() = default;
-  /// Empty where a boundary knows the pressure or lets water out, and where nothing is interpolated.
-  explicit ClosedContour(const std::vector<Block<D>>& blocks);
+  /// Of all blocks; links: their joins. Empty where a boundary knows the pressure or lets water out, and
+  /// where nothing is interpolated.
+  ClosedContour(const std::vector<Block<D>>& blocks, const JoinLinks<D>& links);
+  /// Leaves what concerns a rank's own blocks.
+  void keep(const Owners& owners);
 
-  bool empty() const { return faces_.empty(); }
+  bool empty() const { return empty_; }  ///< on all ranks
   /// Takes the net flux out of the mass rows beside the contour, in proportion to its faces.
+  /// comm collective
   void close(const std::vector<Block<D>>& blocks, std::vector<Residual<D>>& r) const;
 
  private:
@@ -26,6 +31,8 @@ class ClosedContour {
     std::size_t block = 0, cell = 0;  // the solved cell beside it
     double share = 0.0;               // of the contour's area
   };
+  bool empty_ = true;
+  Ranks ranks_;
   std::vector<Face> faces_;
   std::vector<std::size_t> blocks_;  // of the component
 };

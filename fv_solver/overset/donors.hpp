@@ -23,19 +23,6 @@ struct OversetLinks {
   std::vector<Receiver> receivers;
 
   bool empty() const { return receivers.empty(); }
-  /// field_of(block) -> array of the layout of cell arrays; donors are never receivers, so the order is free
-  template <class FieldOf>
-  void interpolate(FieldOf&& field_of) const {
-    for (const Receiver& r : receivers) {
-      double sum = 0.0;
-      for (std::size_t k = 0; k < k_corners; ++k)
-        sum += r.weight[k] *
-               static_cast<double>(field_of(r.donor_block[k])[static_cast<std::size_t>(r.donor[k])]);
-      auto& field = field_of(r.block);
-      using Value = std::decay_t<decltype(field[0])>;
-      field[static_cast<std::size_t>(r.cell)] = static_cast<Value>(sum);
-    }
-  }
 };
 
 /// One block as it takes part in an overlap, on any level of a hierarchy.

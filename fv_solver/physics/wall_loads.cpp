@@ -97,7 +97,8 @@ Load operator+(const Load& a, const Load& b) {
 
 template <int D>
 WallLoads wall_loads(const std::vector<Block<D>>& blocks, const Equations<D>& equations,
-                     const std::vector<State<D>>& q, const std::string& wall, const coupler::Vec3& about) {
+                     const std::vector<State<D>>& q, const std::string& wall, const coupler::Vec3& about,
+                     const Ranks& ranks) {
   WallLoads loads;
   const Fluid<D>& fluid = equations.fluid;
   for_each_wall_face<D>(blocks, equations, q, wall, [&](const Window<D>&, const WallFace<D>& face) {
@@ -111,12 +112,16 @@ WallLoads wall_loads(const std::vector<Block<D>>& blocks, const Equations<D>& eq
     add<D>(loads.viscous, face.at, face.friction, about);
     add<D>(loads.hydrostatic, face.at, weight, about);
   });
+  for (Load* load : {&loads.pressure, &loads.viscous, &loads.hydrostatic}) {
+    ranks.sum(load->force);
+    ranks.sum(load->moment);
+  }
   return loads;
 }
 
 template <int D>
 WallUnits wall_units(const std::vector<Block<D>>& blocks, const Equations<D>& equations,
-                     const std::vector<State<D>>& q, const std::string& wall) {
+                     const std::vector<State<D>>& q, const std::string& wall, const Ranks& ranks) {
   WallUnits units;
   const Fluid<D>& fluid = equations.fluid;
   if (fluid.viscosity == 0.0) return units;
@@ -130,17 +135,22 @@ WallUnits wall_units(const std::vector<Block<D>>& blocks, const Equations<D>& eq
     units.mean += y * face.measure;
     measure += face.measure;
   });
-  if (measure > 0.0) units.mean /= measure;
+  units.largest = ranks.largest(units.largest);
+  std::array<double, 2> mean{units.mean, measure};
+  ranks.sum(mean);
+  units.mean = mean[1] > 0.0 ? mean[0] / mean[1] : 0.0;
   return units;
 }
 
 template WallLoads wall_loads<2>(const std::vector<Block<2>>&, const Equations<2>&,
-                                 const std::vector<State<2>>&, const std::string&, const coupler::Vec3&);
+                                 const std::vector<State<2>>&, const std::string&, const coupler::Vec3&,
+                                 const Ranks&);
 template WallLoads wall_loads<3>(const std::vector<Block<3>>&, const Equations<3>&,
-                                 const std::vector<State<3>>&, const std::string&, const coupler::Vec3&);
+                                 const std::vector<State<3>>&, const std::string&, const coupler::Vec3&,
+                                 const Ranks&);
 template WallUnits wall_units<2>(const std::vector<Block<2>>&, const Equations<2>&,
-                                 const std::vector<State<2>>&, const std::string&);
+                                 const std::vector<State<2>>&, const std::string&, const Ranks&);
 template WallUnits wall_units<3>(const std::vector<Block<3>>&, const Equations<3>&,
-                                 const std::vector<State<3>>&, const std::string&);
+                                 const std::vector<State<3>>&, const std::string&, const Ranks&);
 
 }  // namespace littoral::fv

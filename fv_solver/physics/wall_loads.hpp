@@ -5,6 +5,7 @@
 
 #include "grid/block.hpp"
 #include "littoral/coupler/types.hpp"
+#include "parallel/ranks.hpp"
 #include "physics/equations.hpp"
 
 namespace littoral::fv {
@@ -26,11 +27,12 @@ struct WallLoads {
   Load total() const { return dynamic() + hydrostatic; }
 };
 
-/// Sums over all walls (wall, slip, symmetry) with this name; moments about `about` [m].
-/// pre: ghosts of q current. comm local
+/// Sums over all walls (wall, slip, symmetry) with this name, of all ranks; moments about `about` [m].
+/// pre: ghosts of q current. comm collective, as wall_units
 template <int D>
 WallLoads wall_loads(const std::vector<Block<D>>& blocks, const Equations<D>& equations,
-                     const std::vector<State<D>>& q, const std::string& wall, const coupler::Vec3& about);
+                     const std::vector<State<D>>& q, const std::string& wall, const coupler::Vec3& about,
+                     const Ranks& ranks = {});
 
 /// Distance of the first cell centres from no-slip walls in wall units, y+ = d sqrt(|tau|/rho0)/nu (F11).
 struct WallUnits {
@@ -39,6 +41,6 @@ struct WallUnits {
 /// Over all no-slip walls with this name; without friction 0. pre: ghosts of q current
 template <int D>
 WallUnits wall_units(const std::vector<Block<D>>& blocks, const Equations<D>& equations,
-                     const std::vector<State<D>>& q, const std::string& wall);
+                     const std::vector<State<D>>& q, const std::string& wall, const Ranks& ranks = {});
 
 }  // namespace littoral::fv

@@ -9,17 +9,18 @@ from .scene import ROOT
 
 # name: arguments of each program of its job, one rank each
 KNOWN = {"coupler": (["sph"], ["fv"]), "sph": ([],), "fv": ([],)}
+SCALING = ("sph_scaling", "fv_scaling")
 
 
 def command(args):
     names = args.names or list(KNOWN)
     for name in names:
-        if name not in KNOWN and name != "sph_scaling":
-            raise unknown("benchmark", name, [*KNOWN, "sph_scaling"])
+        if name not in KNOWN and name not in SCALING:
+            raise unknown("benchmark", name, [*KNOWN, *SCALING])
     status = 0
     for name in names:
-        if name == "sph_scaling":
-            status = status or scaling.command(args)
+        if name in SCALING:
+            status = status or scaling.command(args, name.removesuffix("_scaling"))
             continue
         try:
             program = programs.find(f"{name}_bench", args.bin)

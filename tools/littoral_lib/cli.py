@@ -98,7 +98,7 @@ def build_parser():
     verify.add_argument("--verbose", "-v", action="store_true", help="every metric, and the programs' progress")
 
     bench = sub.add_parser("bench", help="run benchmarks", description="Run coupler_bench, sph_bench, fv_bench.")
-    bench.add_argument("names", nargs="*", metavar="NAME", help="coupler, sph, fv (default: all that are built), sph_scaling")
+    bench.add_argument("names", nargs="*", metavar="NAME", help="coupler, sph, fv (default: all that are built), sph_scaling, fv_scaling")
     bench.add_argument("--threads", type=positive, metavar="N", help="OpenMP threads a rank (default 1)")
     bench.add_argument("--out", help="folder the programs run in")
     for parser_of in (run, check, verify, bench):

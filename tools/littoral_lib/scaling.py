@@ -1,4 +1,5 @@
-"""littoral bench sph_scaling: sph_solver on 1 to 4 ranks, and a model, from the messages measured, of many more."""
+"""littoral bench sph_scaling: sph_solver on 1 to 4 ranks, and a model, from the messages measured, of many more.
+fv_scaling: fv_solver on 1 to 4 ranks."""
 
 import json
 import os
@@ -9,8 +10,7 @@ from . import launch, programs
 from .errors import UserError
 from .scene import ROOT
 
-SCENE = ROOT / "tests" / "benchmarks" / "sph_scaling" / "sph.yaml"
-BLOCKS = 4      # of the strong table
+BLOCKS = {"sph": 4, "fv": 2}  # of the strong table
 REACH = 3.0     # of the halo in spacings: R = 2.7 dx and the lists' skin
 # A cluster to be assumed: a message's latency [s], a rank's share of the network [B/s], a sum over all ranks [s] per
 # doubling of their number.
@@ -19,17 +19,18 @@ SPEED = 1.2e5   # particle-steps/s of a rank, if less was measured: fast computi
 SUMS_A_STEP = 7  # one a stage (lists outdated?), two more before and after, two to agree on the step's length
 
 
-def measure(program, folder, ranks, blocks, threads):
+def measure(program, folder, ranks, blocks, threads, solver="sph"):
+    scene = ROOT / "tests" / "benchmarks" / f"{solver}_scaling" / f"{solver}.yaml"
     out = folder / f"ranks{ranks}_blocks{blocks}"
     line = ["mpirun"] + (["--bind-to", "none", "--oversubscribe"] if launch.is_open_mpi() else [])
-    line += ["-n", str(ranks), program, "--config", str(SCENE), "--out", str(out), "--set", f"scene.constants.blocks={blocks}"]
+    line += ["-n", str(ranks), program, "--config", str(scene), "--out", str(out), "--set", f"scene.constants.blocks={blocks}"]
     environment = programs.environment(threads)
     if ranks > (os.cpu_count() or 1):
         environment["OMPI_MCA_mpi_yield_when_idle"] = "1"
     done = subprocess.run(line, env=environment, capture_output=True, text=True, check=False)
     if done.returncode != 0:
-        raise UserError("sph_solver failed:\n" + done.stdout + done.stderr)
-    with open(out / "sph" / "summary.json", encoding="utf-8") as file:
+        raise UserError(f"{solver}_solver failed:\n" + done.stdout + done.stderr)
+    with open(out / solver / "summary.json", encoding="utf-8") as file:
         summary = json.load(file)
     return summary["results"], summary["wall_time"]
 
@@ -74,14 +75,31 @@ def model(results, one):
                   f"| {compute / (compute + halo + sums):.1%} |")
 
 
-def command(args):
-    program = programs.find("sph_solver", args.bin)
-    folder = pathlib.Path(args.out or ROOT / "out" / "bench" / "sph_scaling")
+def fv_table(title, rows, weak):
+    print(f"\n{title}\n\n| ranks | cells | cycles a step | us a cell and step | s a step | of ideal |")
+    print("|---|---|---|---|---|---|")
+    first = None
+    for ranks, results, _ in rows:
+        step = results["microseconds_per_cell_and_step"] * results["cells"] * 1e-6
+        first = first or step
+        print(f"| {ranks} | {results['cells']:.0f} | {results['inner_cycles_per_step']:.1f} "
+              f"| {results['microseconds_per_cell_and_step']:.2f} | {step:.2f} "
+              f"| {first / step if weak else first / step / ranks:.0%} |")
+
+
+def command(args, solver="sph"):
+    program = programs.find(f"{solver}_solver", args.bin)
+    folder = pathlib.Path(args.out or ROOT / "out" / "bench" / f"{solver}_scaling")
     threads = args.threads or 1
     cores = os.cpu_count() or 1
     print(f"{cores} cores, {threads} thread(s) a rank; ranks beyond the cores share them and show correctness only")
-    strong = [(ranks, *measure(program, folder, ranks, BLOCKS, threads)) for ranks in (1, 2, 3, 4)]
-    weak = [(ranks, *measure(program, folder, ranks, ranks, threads)) for ranks in (1, 2, 3, 4)]
+    blocks = BLOCKS[solver]
+    strong = [(ranks, *measure(program, folder, ranks, blocks, threads, solver)) for ranks in (1, 2, 3, 4)]
+    weak = [(ranks, *measure(program, folder, ranks, ranks, threads, solver)) for ranks in (1, 2, 3, 4)]
+    if solver == "fv":
+        fv_table("Strong: the same water", strong, weak=False)
+        fv_table("Weak: a block a rank", weak, weak=True)
+        return 0
     table("Strong: the same water", strong)
     table("Weak: a block a rank", weak)
     model(strong[1][1], strong[0][1])

@@ -67,7 +67,7 @@ TEST(ChecksTest, BlocksThatMeetAreRefused) {
   auto scene = test::top_scene(0.0);
   scene.coupling.kind = support::Scene::CouplingKind::none;
   const std::vector<Block<2>> twice(2, test::water_box<2>(8, true));
-  EXPECT_NE(refusal([&] { check_blocks<2>(twice, scene); }).find("meet or overlap"), std::string::npos);
+  EXPECT_NE(refusal([&] { check_apart<2>(twice); }).find("meet or overlap"), std::string::npos);
 }
 
 TEST(AloneTest, AContinuedRunCountsItsWindowsOn) {

@@ -1,7 +1,7 @@
 littoral_gtest(
   NAME fv_core_test
   PREFIX fv
-  SOURCES box_test.cpp
+  SOURCES box_test.cpp cut_test.cpp
           flows_test.cpp
           generators_test.cpp
           grid_config_test.cpp grid_parts_test.cpp

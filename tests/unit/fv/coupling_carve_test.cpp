@@ -99,7 +99,7 @@ TEST(DonorOfferTest, PointsBesideAPeriodicFaceFindDonorsWithTheImagesValues) {
   };
   auto stepper = test::stepper_for<2>({block}, scene, flow);
   carve(stepper.blocks(), scene);
-  const DonorOffer<2> offer(stepper.blocks());
+  const DonorOffer<2> offer(stepper.blocks(), stepper.exchange());
   ASSERT_EQ(offer.geometry().patches.size(), 1u);
   EXPECT_EQ(offer.geometry().patches[0].n, (std::array<int, 3>{12, 1, 12}));
   coupler::DonorValues values;
@@ -123,7 +123,7 @@ TEST(DonorOfferTest, LayersBeyondTheGridAreRefused) {
   auto scene = scene_with(2, {{0.2, 0, 0.2}, {0.8, 0, 0.8}});
   std::vector<Block<2>> blocks{block};
   carve(blocks, scene);
-  const DonorOffer<2> offer(blocks);
+  const DonorOffer<2> offer(blocks, Exchange<2>(blocks));
   EXPECT_NO_THROW(check_layers_covered<2>(offer.geometry(), scene));
   scene.coupling.driven_width = 0.3;
   const std::string what = message_of<ConfigError>([&] { check_layers_covered<2>(offer.geometry(), scene); });

@@ -216,8 +216,7 @@ TEST(CoupledTest, RestartContinuesBitForBit) {
     auto companion = make(whole, 0);
     companion->begin(whole);
     march(*companion, whole, 4);
-    write_checkpoint<2>(path, whole, 4, wave.scene,
-                        [&](support::CheckpointWriter& file) { companion->save(file); });
+    write_checkpoint<2>(path, whole, 4, wave.scene, [&](StateWriter<2>& file) { companion->save(file); });
     march(*companion, whole, 4);
 
     auto second = test::stepper_for<2>({water_box<2>(16, true)}, wave.scene, wave.exact());
