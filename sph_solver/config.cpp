@@ -95,7 +95,10 @@ void Config::bind(support::Binder& b) {
         .unit("dx")
         .exclusive_min(0)
         .max(4)
-        .doc("Reach of the lists beyond the kernel; a wider skin lets them live longer.");
+        .doc(
+            "Reach of the lists beyond the kernel, at most: less where particles move little in a step, as "
+            "much as "
+            "makes lists and pairs together cheapest.");
   });
   b.section("ranks", "A run on several MPI ranks.", [&] {
     b.key("load_drift", load_drift)

@@ -44,7 +44,7 @@ struct Config {
   std::optional<double> cfl;          // absent: that of the integrator
   std::optional<double> viscous_cfl;  // absent: that of the integrator
   double force_cfl = 0.25;
-  double skin = 0.3;  // [dx]
+  double skin = 0.4;  // [dx]
   double load_drift = 1.1;
   std::vector<std::string> fields = {"velocity", "pressure"};
   std::vector<GaugeConfig> gauges;

@@ -10,6 +10,12 @@ void CouplingConfig::bind(support::Binder& b) {
             "crossing: a particle beyond the outer face goes, its mass is credited to the face element. "
             "nearest: "
             "Di Mascio et al. 2021, the particle nearest to an element that owes a particle's mass goes.");
+    b.choice<FaceRows>("rows", rows, {{"level", FaceRows::level}, {"fixed", FaceRows::fixed}})
+        .doc(
+            "Rows of the particles that enter through an upright face which the surface crosses. level: the "
+            "uppermost rise and sink with it. fixed: Di Mascio et al. 2021, they stay, and an element cut by "
+            "the "
+            "surface makes whole particles more rarely; for waves without a stream.");
     b.choice<SampleMethod>("samples", samples,
                            {{"corrected", SampleMethod::corrected}, {"shepard", SampleMethod::shepard}})
         .doc(

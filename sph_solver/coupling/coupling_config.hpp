@@ -11,6 +11,7 @@ namespace littoral::sph {
 /// What sph.yaml says about the coupling.
 struct CouplingConfig {
   Removal removal = Removal::crossing;
+  FaceRows rows = FaceRows::level;
   SampleMethod samples = SampleMethod::corrected;
   double phi_band = 3.0;  // [spacings] within which FV gets phi from the surface particles
 

@@ -6,13 +6,13 @@ namespace littoral::sph {
 
 template <int D>
 CouplingHooks<D>::CouplingHooks(const Layers<D>& layers, const Numerics<D>& numerics, const Exterior& fv,
-                                Removal removal)
+                                Removal removal, FaceRows rows)
     : layers_(layers),
       fv_(fv),
       eos_(numerics.eos),
       kernel_radius_(numerics.kernel_radius),
       spacing_(numerics.spacing),
-      exchange_(layers, numerics.eos, numerics.spacing, removal) {}
+      exchange_(layers, numerics.eos, numerics.spacing, removal, rows) {}
 
 template <int D>
 void CouplingHooks<D>::after_stage(Particles<D>& particles, double t) {

@@ -15,7 +15,8 @@ namespace littoral::sph {
 template <int D>
 class CouplingHooks final : public StepHooks<D> {
  public:
-  CouplingHooks(const Layers<D>& layers, const Numerics<D>& numerics, const Exterior& fv, Removal removal);
+  CouplingHooks(const Layers<D>& layers, const Numerics<D>& numerics, const Exterior& fv, Removal removal,
+                FaceRows rows = FaceRows::level);
 
   /// (17) with FV's state at the stage's time; (24).
   void after_stage(Particles<D>& particles, double t) override;

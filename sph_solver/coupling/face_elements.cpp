@@ -18,6 +18,23 @@ constexpr std::ptrdiff_t k_worth_a_team = 256;
 /// Faces nearer than this coincide [spacing]: room for the round-off of a scene's formulas.
 constexpr double k_same_place = 1e-6;
 
+/// Calls f(k) for k in [0, n) in a team of threads; what one of them throws is thrown when all are done.
+template <class F>
+void in_team(std::size_t n, const F& f) {
+  std::exception_ptr failure;
+  const auto count = static_cast<std::ptrdiff_t>(n);
+#pragma omp parallel for schedule(static) if (count > k_worth_a_team)
+  for (std::ptrdiff_t k = 0; k < count; ++k) {
+    try {
+      f(static_cast<std::size_t>(k));
+    } catch (...) {
+#pragma omp critical(littoral_face_elements)
+      failure = std::current_exception();
+    }
+  }
+  if (failure) std::rethrow_exception(failure);
+}
+
 /// Ends of the tiles of about `spacing` that fill [lower, upper], with an end at each of the cuts inside.
 std::vector<double> tile_edges(double lower, double upper, std::vector<double> cuts, double spacing) {
   cuts.push_back(upper);
@@ -57,15 +74,18 @@ bool covered(const std::vector<RegionBox<D>>& boxes, std::size_t b, std::size_t 
 }  // namespace
 
 template <int D>
-FaceElements<D>::FaceElements(const Layers<D>& layers, double spacing) : boxes_(layers.boxes()) {
+FaceElements<D>::FaceElements(const Layers<D>& layers, double spacing, FaceRows rows)
+    : boxes_(layers.boxes()), spacing_(spacing) {
   for (std::size_t b = 0; b < boxes_.size(); ++b)
     for (std::size_t axis = 0; axis < D; ++axis)
       for (std::size_t side = 0; side < 2; ++side) {
         if (!boxes_[b].open[axis][side]) continue;
         Face face{b, axis, side, elements_.size(), 0, {}, {}};
         tile(face, spacing);
+        if (rows == FaceRows::level && axis != D - 1) make_columns(face);
         faces_.push_back(face);
       }
+  columns_.set_probes(elements_);
   mass_.assign(size(), Compensated());
   speed_.assign(size(), 0.0);
   forget_hints();
@@ -114,6 +134,37 @@ void FaceElements<D>::tile(Face& face, double spacing) {
 }
 
 template <int D>
+void FaceElements<D>::make_columns(const Face& face) {
+  const auto& edges = face.edges[D - 1];
+  const std::size_t height = edges.size() - 1, n = face.element.size() / height;
+  for (std::size_t c = 0; c < n; ++c) {  // the last direction, up, is the slowest
+    std::vector<std::size_t> column;
+    for (std::size_t k = 0; k < height; ++k) column.push_back(face.element[c + k * n]);
+    if (std::count(column.begin(), column.end(), k_covered) == 0) columns_.add(std::move(column), edges);
+  }
+}
+
+template <int D>
+void FaceElements<D>::follow_level(const Exterior& fv, double time) {
+  const auto& probes = columns_.probes();
+  std::vector<double> phi(probes.size(), 0.0), known(probes.size(), 0.0);
+  in_team(probes.size(), [&](std::size_t k) {
+    if (!probe_owner_.empty() && probe_owner_[k] != rank_) return;
+    const auto state = fv.at(to_vec3<D>(probes[k]), time, probe_hint_[k]);
+    if (!state) return;
+    phi[k] = state->phi;
+    known[k] = 1.0;
+  });
+  if (others_ != nullptr) {
+    others_->merge(phi);
+    others_->merge(known);
+  }
+  columns_.follow(phi, known, spacing_, elements_, mass_);
+  for (std::size_t e = 0; e < owner_.size(); ++e)
+    owner_[e] = others_->regions().owner(elements_[e].centre, 0);
+}
+
+template <int D>
 double FaceElements<D>::wet_part(const Exterior& fv, std::size_t e, double phi_centre, double time) const {
   const auto& element = elements_[e];
   double reach = 0.0;
@@ -146,33 +197,26 @@ double FaceElements<D>::wet_part(const Exterior& fv, std::size_t e, double phi_c
 template <int D>
 void FaceElements<D>::integrate(const Exterior& fv, const LinearEos& eos, double time, double dt) {
   const double half_time = time + 0.5 * dt;
-  const auto n = static_cast<std::ptrdiff_t>(size());
+  if (fv.with_phi() && !columns_.empty()) follow_level(fv, half_time);
   std::vector<double> gain(size(), 0.0);
-  std::ptrdiff_t first_missing = n;
-  std::exception_ptr failure;
-#pragma omp parallel for schedule(static) reduction(min : first_missing) if (n > k_worth_a_team)
-  for (std::ptrdiff_t k = 0; k < n; ++k) {
-    const auto e = static_cast<std::size_t>(k);
+  std::vector<char> missing(size(), 0);
+  in_team(size(), [&](std::size_t e) {
     const auto& element = elements_[e];
     speed_[e] = 0.0;
-    if (!is_mine(e)) continue;
-    try {
-      const auto state = fv.at(to_vec3<D>(element.centre), half_time, hint_[e]);
-      if (!state) {  // no FV water here
-        first_missing = k < first_missing ? k : first_missing;
-        continue;
-      }
-      const double wet = fv.with_phi() ? wet_part(fv, e, state->phi, half_time) : 1.0;
-      speed_[e] = element.inward * state->u[space_axis<D>(element.axis)];
-      gain[e] = eos.density(state->p) * wet * speed_[e] * element.area * dt;  // (18), (19), with rho(p)
-    } catch (...) {
-#pragma omp critical(littoral_face_elements)
-      failure = std::current_exception();
+    if (!is_mine(e) || element.area == 0.0) return;
+    const auto state = fv.at(to_vec3<D>(element.centre), half_time, hint_[e]);
+    if (!state) {  // no FV water here
+      missing[e] = 1;
+      return;
     }
-  }
-  if (failure) std::rethrow_exception(failure);
-  if (first_missing < n && !fv.with_phi()) {
-    const auto x = to_vec3<D>(elements_[static_cast<std::size_t>(first_missing)].centre);
+    const double wet = fv.with_phi() && !element.stretched ? wet_part(fv, e, state->phi, half_time) : 1.0;
+    speed_[e] = element.inward * state->u[space_axis<D>(element.axis)];
+    gain[e] = eos.density(state->p) * wet * speed_[e] * element.area * dt;  // (18), (19), with rho(p)
+  });
+  const auto first_missing =
+      static_cast<std::size_t>(std::find(missing.begin(), missing.end(), 1) - missing.begin());
+  if (first_missing < size() && !fv.with_phi()) {
+    const auto x = to_vec3<D>(elements_[first_missing].centre);
     std::ostringstream text;
     text << "t = " << time << " s: no donor cells at the SPH region's outer face, point (" << x[0] << ", "
          << x[1] << ", " << x[2] << "). The partner's grid must reach half a cell beyond it.";
@@ -214,9 +258,11 @@ template <int D>
 void FaceElements<D>::divide_among(OtherRanks<D>* others) {
   others_ = others;
   owner_.clear();
+  probe_owner_.clear();
   if (others_ == nullptr) return;
   rank_ = static_cast<std::size_t>(others_->rank());
   for (const auto& element : elements_) owner_.push_back(others_->regions().owner(element.centre, 0));
+  for (const auto& probe : columns_.probes()) probe_owner_.push_back(others_->regions().owner(probe, 0));
 }
 
 template <int D>
@@ -295,7 +341,8 @@ std::size_t FaceElements<D>::crossed(const Point<D>& x) const {
     tile += stride * static_cast<std::size_t>(above - edges.begin() - 1);
     stride *= edges.size() - 1;
   }
-  if (through->element[tile] != k_covered) return through->element[tile];
+  const std::size_t element = through->element[tile];
+  if (element != k_covered) return columns_.at_height(element, x[D - 1], elements_);
   return nearest(x);  // past an edge where two boxes meet
 }
 
@@ -324,16 +371,19 @@ std::vector<double> FaceElements<D>::pack() const {
   }
   packed.push_back(flux_.sum());
   packed.push_back(flux_.carry());
+  for (std::size_t c = 0; c < columns_.size(); ++c) packed.push_back(columns_.rows(c));
   return packed;
 }
 
 template <int D>
 void FaceElements<D>::unpack(const std::vector<double>& packed) {
-  if (packed.size() != 2 * size() + 2)
-    throw IoError("face elements: the record holds " + std::to_string(packed.size() / 2 - 1) +
-                  " elements, this scene has " + std::to_string(size()) + ".");
+  const std::size_t expected = 2 * size() + 2 + columns_.size();
+  if (packed.size() != expected)
+    throw IoError("face elements: the record holds " + std::to_string(packed.size()) +
+                  " numbers, this scene's faces have " + std::to_string(expected) + ".");
   for (std::size_t e = 0; e < size(); ++e) mass_[e] = Compensated(packed[2 * e], packed[2 * e + 1]);
   flux_ = Compensated(packed[2 * size()], packed[2 * size() + 1]);
+  for (std::size_t c = 0; c < columns_.size(); ++c) columns_.set_rows(c, packed[2 * size() + 2 + c]);
 }
 
 template class FaceElements<2>;

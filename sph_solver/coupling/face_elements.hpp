@@ -6,23 +6,13 @@
 
 #include "coupling/compensated.hpp"
 #include "coupling/exterior.hpp"
+#include "coupling/face_columns.hpp"
+#include "coupling/face_element.hpp"
 #include "coupling/zones.hpp"
 #include "parallel/other_ranks.hpp"
 #include "physics/eos.hpp"
 
 namespace littoral::sph {
-
-/// A piece of an outer face, of about dx^(D-1).
-template <int D>
-struct FaceElement {
-  Point<D> centre{};     // [m]
-  Point<D> half{};       // [m] half its extent in each direction, 0 in the normal one
-  std::size_t axis = 0;  // direction of the normal
-  std::size_t side = 0;  // lower or upper face of its box
-  double inward = 1.0;   // +1: the inward normal points to larger coordinates
-  double area = 0.0;     // [m^(D-1)]
-  std::size_t box = 0;   // region box it bounds
-};
 
 /// The outer faces of the region, split into elements, and the mass each carries: integrated by (18), not yet
 /// injected as particles. Of several boxes only what bounds their union has elements: a face is cut where
@@ -33,15 +23,15 @@ template <int D>
 class FaceElements {
  public:
   FaceElements() = default;
-  FaceElements(const Layers<D>& layers, double spacing);
+  FaceElements(const Layers<D>& layers, double spacing, FaceRows rows = FaceRows::fixed);
 
   std::size_t size() const { return elements_.size(); }
   const FaceElement<D>& operator[](std::size_t e) const { return elements_[e]; }
 
   /// Adds the mass that enters in [time, time + dt]: rho(p) u.n S dt with FV's state at the centre at half
-  /// time (18), second order in time; only the wet part of an element that FV's surface cuts counts (19).
-  /// comm: collective over the other ranks. throws CouplingError: no donors at an element in a scene without
-  /// free surface
+  /// time (18), second order in time; of an element that FV's surface cuts only the wet part counts (19),
+  /// after those that follow the level have been brought there. comm: collective over the other ranks. throws
+  /// CouplingError: no donors at an element in a scene without free surface
   void integrate(const Exterior& fv, const LinearEos& eos, double time, double dt);
 
   double mass(std::size_t e) const { return mass_[e].value(); }  // [kg]
@@ -67,9 +57,13 @@ class FaceElements {
   /// Element of the outer face through which a point outside has left; size() if it is not outside.
   std::size_t crossed(const Point<D>& x) const;
 
-  void forget_hints() { hint_.assign(size(), -1); }
+  void forget_hints() {
+    hint_.assign(size(), -1);
+    probe_hint_.assign(columns_.probes().size(), -1);
+  }
 
-  /// The integrals, as they are written and restored: mass sums, their carries, then the flux.
+  /// The integrals, as they are written and restored: mass sums, their carries, the flux, rows of the
+  /// columns.
   std::vector<double> pack() const;
   void unpack(const std::vector<double>& packed);  ///< throws IoError if the count is another
 
@@ -83,18 +77,24 @@ class FaceElements {
   };
   static constexpr std::size_t k_covered = static_cast<std::size_t>(-1);
   void tile(Face& face, double spacing);
+  void make_columns(const Face& face);
+  void follow_level(const Exterior& fv, double time);
   std::size_t nearest(const Point<D>& x) const;
   double wet_part(const Exterior& fv, std::size_t e, double phi_centre, double time) const;
 
   std::vector<RegionBox<D>> boxes_;
   std::vector<Face> faces_;
+  double spacing_ = 0.0;  // [m]
   std::vector<FaceElement<D>> elements_;
+  FaceColumns<D> columns_;
   std::vector<Compensated> mass_;
   std::vector<double> speed_;
   OtherRanks<D>* others_ = nullptr;
   std::size_t rank_ = 0;
-  std::vector<std::size_t> owner_;  // empty on one rank
+  std::vector<std::size_t> owner_;        // empty on one rank
+  std::vector<std::size_t> probe_owner_;  // likewise
   mutable std::vector<std::int64_t> hint_;
+  std::vector<std::int64_t> probe_hint_;
   Compensated flux_;
 };
 

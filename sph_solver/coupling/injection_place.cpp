@@ -86,9 +86,9 @@ double PresentParticles<D>::room(const Point<D>& x) const {
 }
 
 template <int D>
-InjectionPlace<D> injection_place(const FaceElement<D>& element, double depth, double spacing, bool far,
-                                  const PresentParticles<D>& present, const Exterior& fv, double time,
-                                  std::int64_t& hint) {
+InjectionPlace<D> injection_place(const FaceElement<D>& element, double depth, double least_depth,
+                                  double spacing, bool far, const PresentParticles<D>& present,
+                                  const Exterior& fv, double time, std::int64_t& hint) {
   InjectionPlace<D> best;
   const auto consider = [&](const Point<D>& x) {
     if (!present.inside(x)) return;
@@ -96,13 +96,14 @@ InjectionPlace<D> injection_place(const FaceElement<D>& element, double depth, d
     if (room > best.room * k_better && in_water<D>(x, fv, time, hint)) best = {x, room};
   };
   Point<D> centre = element.centre;
-  centre[element.axis] += element.inward * std::clamp(depth, 0.0, spacing);
+  centre[element.axis] += element.inward * std::clamp(depth, least_depth, spacing);
   consider(centre);
   if (best.room >= k_free * spacing) return best;
 
   const auto search = [&](int n_depths, int n_offsets) {
     const int sides = D == 2 ? n_offsets : n_offsets * n_offsets;
-    for (int j = 0; j < n_depths; ++j)
+    for (int j = 0; j < n_depths; ++j) {
+      if (k_depths[j] * spacing < least_depth) continue;
       for (int k = 0; k < sides; ++k) {
         Point<D> x = element.centre;
         x[element.axis] += element.inward * k_depths[j] * spacing;
@@ -114,6 +115,7 @@ InjectionPlace<D> injection_place(const FaceElement<D>& element, double depth, d
         }
         consider(x);
       }
+    }
   };
   search(k_own_depths, k_own_offsets);
   if (far) search(k_all_depths, k_all_offsets);
@@ -122,10 +124,10 @@ InjectionPlace<D> injection_place(const FaceElement<D>& element, double depth, d
 
 template class PresentParticles<2>;
 template class PresentParticles<3>;
-template InjectionPlace<2> injection_place<2>(const FaceElement<2>&, double, double, bool,
+template InjectionPlace<2> injection_place<2>(const FaceElement<2>&, double, double, double, bool,
                                               const PresentParticles<2>&, const Exterior&, double,
                                               std::int64_t&);
-template InjectionPlace<3> injection_place<3>(const FaceElement<3>&, double, double, bool,
+template InjectionPlace<3> injection_place<3>(const FaceElement<3>&, double, double, double, bool,
                                               const PresentParticles<3>&, const Exterior&, double,
                                               std::int64_t&);
 

@@ -44,10 +44,10 @@ struct InjectionPlace {
 /// spacing): where the water is by now that it stands for; so a steady inflow makes rows of even spacing
 /// although particles appear only at the ends of steps. If a particle is there already, the emptiest of a few
 /// places around. More and further ones if `far`. Places above FV's surface
-/// are none.
+/// are none, nor such less than `least_depth` [m] inside.
 template <int D>
-InjectionPlace<D> injection_place(const FaceElement<D>& element, double depth, double spacing, bool far,
-                                  const PresentParticles<D>& present, const Exterior& fv, double time,
-                                  std::int64_t& hint);
+InjectionPlace<D> injection_place(const FaceElement<D>& element, double depth, double least_depth,
+                                  double spacing, bool far, const PresentParticles<D>& present,
+                                  const Exterior& fv, double time, std::int64_t& hint);
 
 }  // namespace littoral::sph

@@ -17,6 +17,9 @@ namespace {
 // because others left early; it comes where there is a void, else the mass waits for one.
 constexpr double k_room_inflow = 0.65;
 constexpr double k_room_outflow = 0.9;
+// At the face itself there always is room when a row has just left: only further in it tells of a void
+// [spacings].
+constexpr double k_depth_outflow = 1.0;
 
 // A place lies within two spacings in front of its element and one beside it, and looks two spacings around
 // itself for particles: what stands further from the element's centre does not matter to it [spacings].
@@ -49,13 +52,13 @@ std::vector<std::size_t> near_faces(const Particles<D>& particles, const Layers<
 
 template <int D>
 ParticleExchange<D>::ParticleExchange(const Layers<D>& layers, const LinearEos& eos, double spacing,
-                                      Removal removal)
+                                      Removal removal, FaceRows rows)
     : layers_(layers),
       eos_(eos),
       spacing_(spacing),
       m0_(eos.density(eos.p0) * power(spacing, D)),
       removal_(removal),
-      elements_(layers, spacing) {}
+      elements_(layers, spacing, rows) {}
 
 template <int D>
 void ParticleExchange<D>::divide_among(OtherRanks<D>* others) {
@@ -132,7 +135,7 @@ template <int D>
 void ParticleExchange<D>::find_nearest(const Particles<D>& particles) {
   std::vector<std::size_t> asking;
   for (std::size_t e = 0; e < elements_.size(); ++e)
-    if (elements_.mass(e) < -m0_) asking.push_back(e);
+    if (elements_.mass(e) < -mass_of(e)) asking.push_back(e);
   if (asking.empty()) return;
   // what is further away belongs to other elements: the debt waits until a particle comes by
   const double reach = 2.0 * spacing_;
@@ -155,7 +158,7 @@ void ParticleExchange<D>::find_nearest(const Particles<D>& particles) {
   for (std::size_t e : asking) {
     const auto last = std::find_if(first, candidates.cend(),
                                    [e](const Leaver& l) { return l.element > static_cast<double>(e); });
-    while (elements_.mass(e) < -m0_) {
+    while (elements_.mass(e) < -mass_of(e)) {
       auto nearest = last;
       for (auto l = first; l != last; ++l)
         if (gone.count(l->id) == 0 && (nearest == last || l->distance2 < nearest->distance2)) nearest = l;
@@ -172,7 +175,8 @@ void ParticleExchange<D>::find_nearest(const Particles<D>& particles) {
 
 template <int D>
 double ParticleExchange<D>::mass_due(std::size_t element) const {
-  return removal_ == Removal::crossing && elements_.inflow_speed(element) > 0.0 ? 0.5 * m0_ : m0_;
+  return removal_ == Removal::crossing && elements_.inflow_speed(element) > 0.0 ? 0.5 * mass_of(element)
+                                                                                : mass_of(element);
 }
 
 template <int D>
@@ -202,12 +206,13 @@ template <int D>
 void ParticleExchange<D>::inject_at(std::size_t k, std::size_t e, Particles<D>& particles, const Exterior& fv,
                                     double time, PresentParticles<D>& around, std::vector<Birth>& births) {
   for (std::size_t sequence = 0; elements_.mass(e) >= mass_due(e); ++sequence) {
-    // the particle's centre is the water that passed the face when half of m0 had: so far it has come since
-    const double depth = (elements_.mass(e) - 0.5 * m0_) / (eos_.density(eos_.p0) * elements_[e].area);
+    const double m = mass_of(e);
+    // the particle's centre is the water that passed the face when half of m had: so far it has come since
+    const double depth = (elements_.mass(e) - 0.5 * m) / (eos_.density(eos_.p0) * elements_[e].area);
     const bool inflow = elements_.inflow_speed(e) > 0.0;
-    const bool pressed = inflow && elements_.mass(e) >= mass_due(e) + m0_;
-    const auto place =
-        injection_place<D>(elements_[e], depth, spacing_, pressed, around, fv, time, elements_.hint(e));
+    const bool pressed = inflow && elements_.mass(e) >= mass_due(e) + m;
+    const auto place = injection_place<D>(elements_[e], depth, inflow ? 0.0 : k_depth_outflow * spacing_,
+                                          spacing_, pressed, around, fv, time, elements_.hint(e));
     if (place.room < (inflow ? k_room_inflow : k_room_outflow) * spacing_ && !pressed) return;
     if (place.room < 0.0) return;  // FV's water is not there yet
     NewParticle<D> particle;
@@ -222,13 +227,13 @@ void ParticleExchange<D>::inject_at(std::size_t k, std::size_t e, Particles<D>& 
     }
     for (std::size_t d = 0; d < D; ++d) particle.u[d] = state->u[space_axis<D>(d)];
     particle.p = state->p;
-    particle.m = m0_;
-    particle.V = m0_ / eos_.density(state->p);
+    particle.m = m;
+    particle.V = m / eos_.density(state->p);
     particle.zone = layers_.zone(layers_.excess(particle.x));
     particles.append(particle);
     particles.rho.back() = eos_.density(state->p);
     around.add(particle.x);
-    elements_.credit(e, -m0_);
+    elements_.credit(e, -m);
     births.push_back({k, sequence, particle.x});
   }
 }
@@ -250,7 +255,7 @@ void ParticleExchange<D>::hear_of(const std::vector<Birth>& mine, const std::vec
     const std::size_t e = due[birth.due];
     if (elements_.is_mine(e)) continue;
     present[elements_[e].box].add(birth.x);
-    elements_.credit(e, -m0_);
+    elements_.credit(e, -mass_of(e));
   }
 }
 
@@ -294,7 +299,7 @@ bool ParticleExchange<D>::inject(Particles<D>& particles, const Exterior& fv, do
         first_id + (std::lower_bound(all.begin(), all.end(), mine[k], before) - all.begin());
   particles.next_id = first_id + static_cast<std::int64_t>(all.size());
   for (const Birth& birth : all) {
-    injected_ += m0_;
+    injected_ += mass_of(due[birth.due]);
     ++counts_.injected_through[face_of<D>(elements_[due[birth.due]])];
   }
   counts_.injected += static_cast<std::int64_t>(all.size());

@@ -44,8 +44,9 @@ template <int D>
 class ParticleExchange {
  public:
   ParticleExchange() = default;
-  /// m0 = rho0 dx^D is the mass of an injected particle.
-  ParticleExchange(const Layers<D>& layers, const LinearEos& eos, double spacing, Removal removal);
+  /// m0 = rho0 dx^D is the mass of an injected particle, where rows follow the level times its row's share.
+  ParticleExchange(const Layers<D>& layers, const LinearEos& eos, double spacing, Removal removal,
+                   FaceRows rows = FaceRows::level);
 
   /// On several ranks every rank keeps the whole ledger and takes the same decisions in the same order; what
   /// one rank alone knows (its particles near the faces, FV's state at its elements) it tells the others.
@@ -98,6 +99,9 @@ class ParticleExchange {
                  PresentParticles<D>& around, std::vector<Birth>& births);
   void hear_of(const std::vector<Birth>& mine, const std::vector<std::size_t>& due,
                std::vector<PresentParticles<D>>& present, std::vector<Birth>& all);
+  double mass_of(std::size_t element) const {
+    return elements_[element].share * m0_;
+  }                                            ///< [kg] of its particles
   double mass_due(std::size_t element) const;  ///< [kg] with so much on it a particle comes
   bool inject(Particles<D>& particles, const Exterior& fv, double time);
 

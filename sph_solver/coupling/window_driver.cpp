@@ -35,7 +35,8 @@ WindowDriver<D>::WindowDriver(const support::Scene& scene, const CouplingConfig&
       skin_(numerics.skin),
       domain_(domain_box<D>(scene)),
       donors_(scene),
-      hooks_(Layers<D>::from_scene(scene, numerics.kernel_radius), numerics, donors_, config.removal) {}
+      hooks_(Layers<D>::from_scene(scene, numerics.kernel_radius), numerics, donors_, config.removal,
+             config.rows) {}
 
 template <int D>
 void WindowDriver<D>::begin(Particles<D>& particles) {

@@ -17,7 +17,7 @@ constexpr std::size_t k_spare = 16;        // a share of the lists gets 1/16 mor
 
 template <int D>
 const std::vector<std::int32_t>& NeighborList<D>::space_order(const Particles<D>& particles) {
-  owned_grid_.bin(particles.x, particles.n_owned, least_cell_side());
+  owned_grid_.bin(particles.x, particles.n_owned, kernel_radius_ / k_cells_per_reach);
   owned_grid_.sort_cells(particles.x, particles.id);
   return owned_grid_.order();
 }
@@ -123,18 +123,20 @@ template <int D>
 bool NeighborList<D>::outdated(const Particles<D>& particles, double ahead) const {
   if (!built_ || revision_ != particles.revision) return true;
   const auto n = static_cast<std::ptrdiff_t>(particles.n_owned);
-  double most = 0.0;
-#pragma omp parallel for schedule(static) reduction(max : most)
+  double most = 0.0, most_so_far = 0.0;
+#pragma omp parallel for schedule(static) reduction(max : most, most_so_far)
   for (std::ptrdiff_t i = 0; i < n; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    double r2 = 0.0;
+    double now = 0.0, then = 0.0;
     for (std::size_t d = 0; d < D; ++d) {
-      const double moved = particles.x[d][k] + ahead * particles.u[d][k] - x_at_build_[d][k];
-      r2 += moved * moved;
+      const double moved = particles.x[d][k] - x_at_build_[d][k], going = moved + ahead * particles.u[d][k];
+      now += moved * moved;
+      then += going * going;
     }
-    most = std::max(most, r2);
+    most_so_far = std::max(most_so_far, now);
+    most = std::max(most, then);
   }
-  return !(most <= 0.25 * skin_ * skin_);
+  return most_so_far != 0.0 && !(most <= 0.25 * skin_ * skin_);
 }
 
 template class NeighborList<2>;

@@ -22,8 +22,10 @@ class NeighborList {
 
   double kernel_radius() const { return kernel_radius_; }  ///< R [m]
   double reach() const { return kernel_radius_ + skin_; }  ///< [m] within which copies must exist at build
+  void set_skin(double skin) { skin_ = skin; }             ///< [m] of the next build, the same on all ranks
 
-  /// Order that sorts the owned particles by cell, for Particles::permute. Does not touch the lists.
+  /// Order that sorts the owned particles by cell, for Particles::permute, whatever the skin. Does not touch the
+  /// lists.
   const std::vector<std::int32_t>& space_order(const Particles<D>& particles);
   /// From the positions of owned particles and copies. cell_side [m]: the least one or more, the same on all
   /// ranks; without: what suits the particles here
@@ -31,7 +33,8 @@ class NeighborList {
   void build(const Particles<D>& particles, double cell_side);
   double least_cell_side() const;  ///< [m]
   /// True if particles were added, removed or moved by more than half the skin since build(), or will be once
-  /// they have gone on for `ahead` [s] at their velocity.
+  /// they have gone on for `ahead` [s] at their velocity; not so while nobody has moved since, when lists
+  /// made anew would be the same.
   bool outdated(const Particles<D>& particles, double ahead = 0.0) const;
 
   /// Takes pairs out: of the rows i with concerns(i), those with parted(i, j), until the next build.

@@ -45,7 +45,7 @@ void relax(Particles<D>& particles, const Numerics<D>& numerics, const DomainBox
   disorder(particles, k_disorder * numerics.spacing);
   Ghosts<D> ghosts(box, others);
   NeighborList<D> neighbors(numerics.kernel_radius, numerics.skin);
-  const Shifting<D> shifting(1.0, numerics.spacing);
+  const Shifting<D> shifting(1.0);
   for (int sweep = 0; sweep < k_sweeps; ++sweep) {
     ghosts.bring_back(particles, k_mirror_tolerance * numerics.spacing, 0.0);
     if (others != nullptr) others->migrate(particles);

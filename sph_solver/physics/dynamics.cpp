@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "littoral/error.hpp"
+#include "neighbors/suitable_skin.hpp"
 #include "physics/riemann_fluxes.hpp"
 
 namespace littoral::sph {
@@ -22,7 +23,7 @@ Dynamics<D>::Dynamics(const Numerics<D>& numerics, const DomainBox<D>& box, Othe
       others_(others),
       ghosts_(box, others),
       neighbors_(numerics.kernel_radius, numerics.skin),
-      shifting_(numerics.reference_velocity, numerics.spacing),
+      shifting_(numerics.reference_velocity),
       walls_(std::move(walls)),
       pressure_level_(numerics.eos.p0) {
   if (numerics.precision == Precision::mixed) rows_.template emplace<PairRows<D, float>>();
@@ -79,6 +80,25 @@ double cell_side(const Particles<D>& particles, double least, OtherRanks<D>* oth
 
 }  // namespace
 
+/// The skin for lists about to be made, from how far the fastest particle comes in a step.
+template <int D>
+void Dynamics<D>::choose_skin(const Particles<D>& particles, double dt) {
+  double fastest = 0.0;
+  const auto n = static_cast<std::ptrdiff_t>(particles.n_owned);
+#pragma omp parallel for schedule(static) reduction(max : fastest)
+  for (std::ptrdiff_t row = 0; row < n; ++row) {
+    const auto i = static_cast<std::size_t>(row);
+    double speed2 = 0.0;
+    for (std::size_t d = 0; d < D; ++d) {
+      const double speed = particles.u[d][i] + particles.shift[d][i];
+      speed2 += speed * speed;
+    }
+    fastest = std::max(fastest, speed2);
+  }
+  if (others_ != nullptr) others_->take_largest(&fastest, 1);
+  neighbors_.set_skin(suitable_skin<D>(numerics_.kernel_radius, dt * std::sqrt(fastest), numerics_.skin));
+}
+
 template <int D>
 void Dynamics<D>::build_lists(Particles<D>& particles) {
   ghosts_.create(particles, neighbors_.reach());
@@ -101,6 +121,7 @@ void Dynamics<D>::prepare(Particles<D>& particles, double t, StepHooks<D>* hooks
       work_.mirrored_back +=
           static_cast<std::int64_t>(ghosts_.bring_back(particles, k_mirror_tolerance * numerics_.spacing, t));
       if (others_ != nullptr) others_->migrate(particles);
+      choose_skin(particles, dt > 0.0 ? dt : stable_time_step());
       particles.permute(neighbors_.space_order(particles));
       build_lists(particles);
       surface_current_ = false;

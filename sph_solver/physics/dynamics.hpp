@@ -95,6 +95,7 @@ class Dynamics {
  private:
   bool outdated(const Particles<D>& particles, double ahead);
   void build_lists(Particles<D>& particles);
+  void choose_skin(const Particles<D>& particles, double dt);
   template <class Real>
   void pair_loops(const Particles<D>& particles, PairRows<D, Real>& rows);
   void update(Particles<D>& particles, double advance, double weight, bool last, double dt);

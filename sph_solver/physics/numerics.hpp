@@ -25,7 +25,7 @@ struct Numerics {
   bool free_surface = false;                                  // else no detection
   double spacing = 0.0;                                       // dx [m]
   double kernel_radius = 0.0;                                 // R [m]
-  double skin = 0.0;                                          // of the neighbour lists [m]
+  double skin = 0.0;                                          // of the neighbour lists, at most [m]
   Reconstruction reconstruction = Reconstruction::unlimited;
   WallStates wall_states = WallStates::linear;
   RiemannSolver riemann = RiemannSolver::linearised;

@@ -19,7 +19,8 @@ std::array<double, D> sum_pairs(const Particles<D>& particles, const Kernel<D>& 
     Vector x[D];
     const Vector r = distances(particles, i, j, x);
     const Vector q = largest(1.0 - r * kernel.inv_R, Vector{});
-    for (std::size_t d = 0; d < D; ++d) crowding[d] += q * q * q * x[d];
+    const Vector f = gather(particles.V.data(), j) * (q * q * q);
+    for (std::size_t d = 0; d < D; ++d) crowding[d] += f * x[d];
   });
   std::array<double, D> total;
   for (std::size_t d = 0; d < D; ++d) total[d] = -kernel.slope * sum(crowding[d]);
@@ -27,10 +28,6 @@ std::array<double, D> sum_pairs(const Particles<D>& particles, const Kernel<D>& 
 }
 
 }  // namespace
-
-template <int D>
-Shifting<D>::Shifting(double reference_velocity, double spacing)
-    : velocity_(reference_velocity), nominal_volume_(std::pow(spacing, D)) {}
 
 template <int D>
 void Shifting<D>::compute(Particles<D>& particles, const NeighborList<D>& neighbors,
@@ -46,7 +43,7 @@ void Shifting<D>::compute(Particles<D>& particles, const NeighborList<D>& neighb
     double length = 0.0;
     const auto by_walls = walls ? walls->crowding(i) : std::array<double, D>{};
     for (std::size_t d = 0; d < D; ++d) {
-      crowding[d] = kernel.R * (nominal_volume_ * crowding[d] + by_walls[d]);
+      crowding[d] = kernel.R * (crowding[d] + by_walls[d]);
       length += crowding[d] * crowding[d];
     }
     length = std::sqrt(length);

@@ -221,7 +221,7 @@ TEST(BodiesWallsTest, ALatticeThatAnInclinedWallCutsIsEvenToTheShifting) {
     Walls<2>* seen = walls.get();
     Dynamics<2> dynamics(numerics, open_box<2>(n), nullptr, std::move(walls));
     dynamics.prepare(particles, 0.0, nullptr);
-    Shifting<2>(1.0, 1.0).compute(particles, dynamics.neighbors(), nullptr, &seen->support());
+    Shifting<2>(1.0).compute(particles, dynamics.neighbors(), nullptr, &seen->support());
     for (std::size_t i = 0; i < particles.n_owned; ++i) {
       if (particles.x[1][i] > n - numerics.kernel_radius) continue;
       EXPECT_NEAR(particles.shift[0][i], 0.0, 1e-12) << particles.x[0][i] << ", " << particles.x[1][i];

@@ -24,7 +24,7 @@ Shifted shift(Particles<2> particles, const DomainBox<2>& box, double velocity, 
     surface.detect(particles, neighbors, ghosts);
     surface.mark_near(particles, neighbors, ghosts);
   }
-  Shifting<2>(velocity, 1.0).compute(particles, neighbors, free_surface ? &surface : nullptr);
+  Shifting<2>(velocity).compute(particles, neighbors, free_surface ? &surface : nullptr);
   return {std::move(particles), surface.distance()};
 }
 

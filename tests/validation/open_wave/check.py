@@ -16,6 +16,9 @@ B = A * K / (W * np.cosh(K))
 
 def check(case):
     run = case.run(case.folder, solver="sph")
+    following = case.run(case.folder, set=["sph.coupling.rows=level"], name="level", solver="sph")
+    case.metric("smallest spacing / dx, rows: level", min(coupled.smallest_spacing(s.points) for s in
+                                                          following.sph.snapshots) / DX)
     u_rms, p_rms, level, spacing = [], [], [], np.inf
     for s in run.sph.snapshots[1:]:
         x, t = s.points, s.time
