@@ -24,8 +24,8 @@ class NeighborList {
   double reach() const { return kernel_radius_ + skin_; }  ///< [m] within which copies must exist at build
   void set_skin(double skin) { skin_ = skin; }             ///< [m] of the next build, the same on all ranks
 
-  /// Order that sorts the owned particles by cell, for Particles::permute, whatever the skin. Does not touch the
-  /// lists.
+  /// Order that sorts the owned particles by cell, for Particles::permute, whatever the skin. Does not touch
+  /// the lists.
   const std::vector<std::int32_t>& space_order(const Particles<D>& particles);
   /// From the positions of owned particles and copies. cell_side [m]: the least one or more, the same on all
   /// ranks; without: what suits the particles here

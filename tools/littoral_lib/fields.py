@@ -95,6 +95,6 @@ def open_series(path):
 
 
 def find_series(folder):
-    """The series of a program's folder (its first .xdmf); an empty list if it wrote none."""
-    files = sorted(pathlib.Path(folder).glob("*.xdmf"))
+    """The water's series in a program's folder: its first .xdmf that is not of bodies; an empty list if it wrote none."""
+    files = sorted(p for p in pathlib.Path(folder).glob("*.xdmf") if p.stem != "bodies")
     return open_series(files[0]) if files else []

@@ -46,6 +46,12 @@ class Series(unittest.TestCase):
         with self.assertRaises(UserError):
             series[0]["pressure"]
 
+    def test_bodies_are_not_the_water(self):
+        (self.folder / "bodies.xdmf").write_text("their own series")
+        self.assertEqual(fields.find_series(self.folder), [])
+        (self.folder / "particles.xdmf").write_text(HEAD + '<Grid Name="g"><Time Value="2"/></Grid>' + TAIL)
+        self.assertEqual([s.time for s in fields.find_series(self.folder)], [2.0])
+
     def test_cells_of_a_planar_block_have_centres(self):
         nodes = np.array([[[[i, j, k] for i in range(3)] for j in range(2)] for k in range(4)], float)  # nk nj ni
         p = np.arange(6.0)
