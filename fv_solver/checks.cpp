@@ -111,16 +111,16 @@ void check_apart(const std::vector<Block<D>>& blocks) {
 }
 
 template <int D>
-void check_blocks(const std::vector<Block<D>>& blocks, const support::Scene& scene) {
+void check_blocks(const std::vector<Block<D>>& blocks, const support::Scene& scene, bool level_set) {
   for (const Block<D>& block : blocks) {
     check_fringe_faces<D>(block);
-    if (scene.initial.surface) check_under_water<D>(block, *scene.initial.surface);
+    if (scene.initial.surface && !level_set) check_under_water<D>(block, *scene.initial.surface);
   }
 }
 
 template void check_apart<2>(const std::vector<Block<2>>&);
 template void check_apart<3>(const std::vector<Block<3>>&);
-template void check_blocks<2>(const std::vector<Block<2>>&, const support::Scene&);
-template void check_blocks<3>(const std::vector<Block<3>>&, const support::Scene&);
+template void check_blocks<2>(const std::vector<Block<2>>&, const support::Scene&, bool);
+template void check_blocks<3>(const std::vector<Block<3>>&, const support::Scene&, bool);
 
 }  // namespace littoral::fv

@@ -14,9 +14,10 @@ void check_scene(const support::Scene& scene);
 template <int D>
 void check_apart(const std::vector<Block<D>>& blocks);
 
-/// Of the blocks as they are about to be solved, the SPH region carved out of them.
-/// throws ConfigError: a fringe face beside a solved cell, a free surface in solved cells
+/// Of the blocks as they are about to be solved, the SPH region carved out of them. level_set: a free surface
+/// in them is computed
+/// throws ConfigError: a fringe face beside a solved cell, a free surface in solved cells without a level set
 template <int D>
-void check_blocks(const std::vector<Block<D>>& blocks, const support::Scene& scene);
+void check_blocks(const std::vector<Block<D>>& blocks, const support::Scene& scene, bool level_set = false);
 
 }  // namespace littoral::fv

@@ -180,6 +180,11 @@ void FaceConfig::bind(Binder& b) {
   b.key("v", v).unit("m/s").doc("Velocity along y on the face; 3-D only.");
   b.key("w", w).unit("m/s").doc("Velocity along z on the face.");
   b.key("p", p).unit("Pa").doc("Pressure on the face; left out: hydrostatic.");
+  b.key("surface", surface)
+      .doc(
+          "Free surface beyond the face: a formula < 0 in water, 0 on the surface. inflow, far_field and "
+          "state "
+          "only; left out: the scene's initial.surface.");
   b.key("wave_speed", wave_speed)
       .unit("m/s")
       .min(0)
@@ -338,6 +343,18 @@ void FvConfig::bind(Binder& b) {
   b.key("forcing_constant", forcing_constant)
       .exclusive_min(0)
       .doc("K of the forcing in overlapped cells; O(10).");
+  b.section("level_set", "The free surface; only where the scene's initial.surface leaves cells in the air.",
+            [&] {
+              b.key("layers", level_set.layers)
+                  .min(5)
+                  .max(50)
+                  .doc("Layers of cells on each side of the surface in which phi is the distance from it.");
+              b.key("extension_layers", level_set.extension_layers)
+                  .min(3)
+                  .max(50)
+                  .doc("Layers of air cells that hold a velocity; the surface may cross fewer in a step.");
+              b.key("sweeps", level_set.sweeps).min(1).doc("Of the equation of phi in each inner cycle.");
+            });
   partner.bind(b, coupler::Role::fv);
   b.section("source", "Sources per volume, formulas of x, y, z, t.", [&] {
     b.key("mass", source.mass).unit("kg/(m^3 s)").doc("Of the mass balance.");
@@ -380,6 +397,9 @@ void FvConfig::bind(Binder& b) {
   for (const auto& g : gauges)
     b.check(g.kind == GaugeConfig::Kind::point || !g.wall.empty(), "gauges",
             "a force or y_plus gauge needs a wall: its name.");
+  b.check(
+      level_set.extension_layers < level_set.layers, "level_set.extension_layers",
+      "not less than level_set.layers: the band must be wider than the part of it that holds a velocity.");
 }
 
 FvConfig FvConfig::from_file(const std::string& path, const std::vector<std::string>& settings,

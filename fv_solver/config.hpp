@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "boundary/window.hpp"
+#include "level_set/level_set.hpp"
 #include "littoral/support/config.hpp"
 #include "littoral/support/partner_config.hpp"
 #include "littoral/support/scene.hpp"
@@ -47,6 +48,7 @@ struct FaceConfig {
   std::string name;                         // "" : block.face
   std::optional<support::Formula> u, v, w;  // [m/s]
   std::optional<support::Formula> p;        // [Pa]
+  std::optional<support::Formula> surface;  // < 0 in water
   double wave_speed = 0.0;                  // [m/s]
   struct JoinTo {
     std::string block;                         // "" : whoever is met
@@ -199,6 +201,8 @@ struct FvConfig {
   Limiter limiter = Limiter::none;
   double forcing_constant = 10.0;  // K of (21)
   support::PartnerConfig partner;
+
+  LevelSetOptions level_set;
 
   struct RanksConfig {
     bool cut_layers = false;  // see cut_planes

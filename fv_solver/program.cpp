@@ -52,7 +52,7 @@ double check_run(const coupler::Job& job, const FvConfig& config, const support:
     check_layers_covered<D>(DonorOffer<D>(stepper.blocks(), stepper.exchange()).geometry(), scene,
                             stepper.exchange().ranks());
   }
-  check_blocks<D>(stepper.blocks(), scene);
+  check_blocks<D>(stepper.blocks(), scene, stepper.surface() != nullptr);
   const Gauges<D> gauges(config.gauges, stepper);
   double cells = 0.0;
   for (const auto& shape : stepper.exchange().layout().shape)

@@ -8,6 +8,7 @@
 #include "grid/box.hpp"
 #include "grid/find_joins.hpp"
 #include "grid/grid_file.hpp"
+#include "grid/loops.hpp"
 #include "grid/plate.hpp"
 #include "grid/quality.hpp"
 #include "grid/ring.hpp"
@@ -50,6 +51,24 @@ std::vector<Sponge<D>> sponges_of(const FvConfig& config, const support::Scene& 
     sponges.push_back(std::move(sponge));
   }
   return sponges;
+}
+
+/// Whether the surface leaves a corner of a cell in the air: a grid under water needs no level set.
+template <int D>
+bool meets_air(const std::vector<Block<D>>& blocks, const Prescribed& surface) {
+  for (const Block<D>& block : blocks) {
+    bool air = false;
+    std::array<int, D> upper = block.extent.n;
+    for (int& n : upper) ++n;
+    for_each_index<D>({}, upper, [&](const std::array<int, D>& index) {
+      std::array<double, D> x;
+      for (std::size_t k = 0; k < D; ++k)
+        x[k] = block.node[k][static_cast<std::size_t>(block.node_extent.at(index))];
+      air = air || surface(vector_in_space<D>(x), 0.0) > 0.0;
+    });
+    if (air) return true;
+  }
+  return false;
 }
 
 double velocity_scale(const FvConfig& config, const support::Scene& scene) {
@@ -189,6 +208,12 @@ Stepper<D> make_stepper(const FvConfig& config, const support::Scene& scene, std
         return s;
       },
       0.0);
+  if (scene.has_free_surface() && !scene.has_region()) {
+    const Prescribed surface = [f = *scene.initial.surface](const std::array<double, 3>& x, double t) {
+      return f(x[0], x[1], x[2], t);
+    };
+    if (ranks.any(meets_air<D>(stepper.blocks(), surface))) stepper.set_surface(surface, config.level_set);
+  }
   const auto& source = config.source;
   if (source.mass || source.u || source.v || source.w)
     stepper.set_source([source](const std::array<double, D>& at, double t) {

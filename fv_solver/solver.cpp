@@ -71,7 +71,7 @@ void Solver<D>::run(Companion<D>& companion) {
   companion.tell = [this](const std::string& message) { log_.info(message); };
   companion.warn = [this](const std::string& message) { log_.warn(message); };
   companion.begin(stepper_);
-  check_blocks<D>(stepper_.blocks(), scene_);
+  check_blocks<D>(stepper_.blocks(), scene_, stepper_.surface() != nullptr);
   if (restarted_) companion.load(support::CheckpointReader(restart_));
   output_ = std::make_unique<Output<D>>(folder_, config_, scene_, stepper_, timers_, restarted_);
   if (restarted_) output_->set_last_fields(support::CheckpointReader(restart_).number("output/last_fields"));

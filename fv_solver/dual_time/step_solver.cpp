@@ -10,11 +10,18 @@ namespace littoral::fv {
 template <int D>
 void StepProblem<D>::evaluate(std::vector<State<D>>& q, std::vector<Residual<D>>& r) const {
   r.resize(blocks.size());
+  if (surface != nullptr) surface->follow(blocks, exchange, equations, q);
   exchange.states(blocks, q);
-  for (std::size_t b = 0; b < blocks.size(); ++b)
-    equations.residual(blocks[b], q[b], time, history[b], forcing[b], r[b]);
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    if (surface == nullptr) {
+      equations.residual(blocks[b], q[b], time, history[b], forcing[b], r[b]);
+      continue;
+    }
+    const BlockSurface<D> cut = surface->block(b);
+    equations.residual(blocks[b], q[b], time, history[b], forcing[b], r[b], &cut);
+  }
   exchange.share_fluxes(blocks, equations.fluid, q, r);
-  if (!exchange.closed_contour().empty() && equations.fluid.inverse_c2 == 0.0)
+  if (!exchange.closed_contour().empty() && equations.fluid.inverse_c2 == 0.0 && surface == nullptr)
     exchange.closed_contour().close(blocks, r);
 }
 

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "boundary/exchange.hpp"
+#include "free_surface/free_surface.hpp"
 #include "grid/block.hpp"
 #include "physics/equations.hpp"
 
@@ -18,8 +19,10 @@ struct StepProblem {
   BackwardDifference time;
   const std::vector<History<D>>& history;
   const std::vector<Forcing<D>>& forcing;
+  FreeSurface<D>* surface = nullptr;  // null: none
 
-  /// Refreshes the ghosts of q, then evaluates all residuals. comm collective, both
+  /// Lets the free surface follow the flow, refreshes the ghosts of q, then evaluates all residuals.
+  /// comm collective, both
   void evaluate(std::vector<State<D>>& q, std::vector<Residual<D>>& r) const;
   /// Size of a residual as a velocity: rms over the solved cells, weighted with volume, of
   /// R_u/(rho0 V) / (a0 + c0/h) and h R_p/(rho0 V), h = V^(1/D)  [m/s]. NaN if any is.

@@ -75,6 +75,13 @@ void Stepper<D>::initialise(const FlowFunction<D>& flow, double t) {
 }
 
 template <int D>
+void Stepper<D>::set_surface(const Prescribed& surface, const LevelSetOptions& options) {
+  for (auto& block : blocks_) evaluate_surface_windows(block, time_);
+  surface_ = std::make_unique<FreeSurface<D>>(options);
+  surface_->initialise(blocks_, exchange_, equations_.fluid, surface, time_, level_[0]);
+}
+
+template <int D>
 void Stepper<D>::set_sponges(std::vector<Sponge<D>> sponges) {
   sponges_ = std::move(sponges);
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
@@ -165,7 +172,9 @@ StepReport Stepper<D>::advance(double dt, const std::vector<Imposed<D>>& imposed
     }
     evaluate_windows(blocks_[b], equations_, t);
     carry_windows(blocks_[b], equations_, s, level_[0][b], level_[1][b]);
+    if (surface_) evaluate_surface_windows(blocks_[b], t);
   }
+  if (surface_) surface_->begin(blocks_, exchange_, s, w);
   if (!sponges_.empty()) aim_sponges(t);
   level_[3] = std::move(level_[2]);
   level_[2] = std::move(level_[1]);
@@ -178,7 +187,7 @@ StepReport Stepper<D>::advance(double dt, const std::vector<Imposed<D>>& imposed
   time_ = t;
   ++steps_;
 
-  const StepProblem<D> problem{blocks_, exchange_, equations_, s, history_, forcing_};
+  const StepProblem<D> problem{blocks_, exchange_, equations_, s, history_, forcing_, surface_.get()};
   StepReport report;
   try {
     report = inner_->solve(problem, tolerance_, level_[0]);
@@ -186,6 +195,7 @@ StepReport Stepper<D>::advance(double dt, const std::vector<Imposed<D>>& imposed
     check("dt was " + number(dt) + " s; " + k_advice);  // names place and state where they show it
     throw StabilityError(std::string(lost.what()) + "; dt was " + number(dt) + " s");
   }
+  if (surface_) surface_->end(blocks_, exchange_, equations_, level_[0]);
   check("dt was " + number(dt) + " s; " + k_advice);
   return report;
 }
@@ -203,6 +213,7 @@ void Stepper<D>::restore() {
   time_ = time_before_;
   --steps_;
   for (auto& block : blocks_) evaluate_windows(block, equations_, time_);
+  if (surface_) surface_->restore(blocks_, exchange_);
 }
 
 template <int D>
@@ -244,6 +255,7 @@ void Stepper<D>::recall(const Memory& memory) {
   steps_ = memory.steps;
   time_ = memory.time;
   for (auto& block : blocks_) evaluate_windows(block, equations_, time_);
+  if (surface_) surface_->recall(blocks_, exchange_, memory.phi);
 }
 
 template <int D>

@@ -53,6 +53,13 @@ class Stepper {
   void initialise(const FlowFunction<D>& flow, double t);
   void set_source(SourceFunction<D> source) { source_ = std::move(source); }
 
+  /// Lets the water end at a free surface, from a function < 0 in water, = 0 on the surface at time().
+  /// pre initialise
+  void set_surface(const Prescribed& surface, const LevelSetOptions& options = {});
+  /// null in scenes without a free surface
+  const FreeSurface<D>* surface() const { return surface_.get(); }
+  FreeSurface<D>* surface() { return surface_.get(); }
+
   /// Zones that damp the flow. Uses forcing(): not together with cells forced by a partner.
   void set_sponges(std::vector<Sponge<D>> sponges);
 
@@ -91,8 +98,12 @@ class Stepper {
     int known = 0;
     long steps = 0;
     double time = 0.0;
+    typename FreeSurface<D>::Memory phi{};  // empty without a free surface
   };
-  Memory memory() const { return {level_, dt_, known_, steps_, time_}; }
+  Memory memory() const {
+    return {level_, dt_,   known_,
+            steps_, time_, surface_ ? surface_->memory() : typename FreeSurface<D>::Memory{}};
+  }
   void recall(const Memory& memory);
 
  private:
@@ -110,6 +121,7 @@ class Stepper {
   SourceFunction<D> source_;
   std::vector<Sponge<D>> sponges_;
   std::vector<Forcing<D>> forcing_;
+  std::unique_ptr<FreeSurface<D>> surface_;
   std::vector<History<D>> history_;
   // q^n, q^n-1, q^n-2, and one more so that a restored step still knows its derivative
   std::array<std::vector<State<D>>, 4> level_;

@@ -110,8 +110,8 @@ Closing<D> resolve(const FaceConfig& face, const Block<D>& block, const FaceCond
 }
 
 template <int D>
-Window<D> window_of(const FaceConfig& face, const Closing<D>& closing, std::size_t d, std::size_t side,
-                    const std::string& fallback_name) {
+Window<D> window_of(const FaceConfig& face, const Closing<D>& closing, const support::Scene& scene,
+                    std::size_t d, std::size_t side, const std::string& fallback_name) {
   Window<D> w;
   w.name = face.name.empty() ? fallback_name : face.name;
   w.condition = closing.condition;
@@ -129,6 +129,8 @@ Window<D> window_of(const FaceConfig& face, const Closing<D>& closing, std::size
   }
   if (face.p)
     w.pressure = [f = *face.p](const std::array<double, 3>& x, double t) { return f(x[0], x[1], x[2], t); };
+  if (const auto& surface = face.surface ? face.surface : scene.initial.surface)
+    w.surface = [f = *surface](const std::array<double, 3>& x, double t) { return f(x[0], x[1], x[2], t); };
   return w;
 }
 
@@ -175,7 +177,7 @@ void add_face(Block<D>& block, const FaceConditions<D>& conditions, const suppor
       if (inside) condition = &patch->condition;
     }
     Window<D> w = window_of<D>(*condition, resolve<D>(*condition, block, conditions, scene, d, side, others),
-                               d, side, block.name + "." + face);
+                               scene, d, side, block.name + "." + face);
     w.lower = lower;
     w.upper = upper;
     block.windows.push_back(w);

@@ -55,19 +55,18 @@ std::array<int, D> parent(const std::array<int, D>& index, const std::array<int,
   return up;
 }
 
-/// First ghost layers of the cell volumes: the image's where periodic, else the neighbour's inside.
+/// First ghost layers of a cell's property: the image's where periodic, else the neighbour's inside.
 template <int D>
-void ghost_volumes(LevelGrid<D>& grid) {
+void copy_to_ghosts(const LevelGrid<D>& grid, Field& values) {
   for_each_cell<D>(grid.extent, [&](const auto& index, std::ptrdiff_t c) {
     for (std::size_t d = 0; d < D; ++d) {
       const std::ptrdiff_t s = grid.extent.stride[d];
-      if (index[d] == 0)
-        grid.volume[static_cast<std::size_t>(c - s)] = grid.volume[static_cast<std::size_t>(c)];
+      if (index[d] == 0) values[static_cast<std::size_t>(c - s)] = values[static_cast<std::size_t>(c)];
       if (index[d] == grid.extent.n[d] - 1)
-        grid.volume[static_cast<std::size_t>(c + s)] = grid.volume[static_cast<std::size_t>(c)];
+        values[static_cast<std::size_t>(c + s)] = values[static_cast<std::size_t>(c)];
     }
   });
-  fill_periodic(grid, grid.volume);
+  fill_periodic(grid, values);
 }
 
 }  // namespace
@@ -115,8 +114,36 @@ LevelGrid<D> coarsen(const LevelGrid<D>& fine, const std::array<int, D>& ratio) 
     coarse.status[p] = solved[p] >= 0.499 * coarse.volume[p] ? CellStatus::computed : other[p];
     if (!coarse.forcing.empty()) coarse.forcing[p] /= coarse.volume[p];
   });
-  ghost_volumes(coarse);
+  copy_to_ghosts(coarse, coarse.volume);
   return coarse;
+}
+
+template <int D>
+void find_surface(LevelGrid<D>& grid) {
+  grid.beside_air.assign(grid.extent.size, 0);
+  for_each_cell<D>(grid.extent, [&](const auto&, std::ptrdiff_t c) {
+    if (!grid.wet(c)) return;
+    bool air = false;
+    for (std::size_t d = 0; d < D; ++d)
+      air = air || !grid.wet(c - grid.extent.stride[d]) || !grid.wet(c + grid.extent.stride[d]);
+    grid.beside_air[static_cast<std::size_t>(c)] = air ? 1 : 0;
+  });
+}
+
+template <int D>
+void coarsen_phi(const LevelGrid<D>& fine, const std::array<int, D>& ratio, LevelGrid<D>& coarse) {
+  coarse.phi.assign(coarse.extent.size, 0.0);
+  Field weight(coarse.extent.size, 0.0);
+  for_each_cell<D>(fine.extent, [&](const auto& index, std::ptrdiff_t c) {
+    const auto f = static_cast<std::size_t>(c);
+    if (fine.status[f] == CellStatus::blanked) return;
+    const auto p = static_cast<std::size_t>(coarse.extent.at(parent<D>(index, ratio)));
+    weight[p] += fine.volume[f];
+    coarse.phi[p] += fine.volume[f] * fine.phi[f];
+  });
+  for (std::size_t p = 0; p < weight.size(); ++p)
+    if (weight[p] > 0.0) coarse.phi[p] /= weight[p];
+  copy_to_ghosts(coarse, coarse.phi);
 }
 
 template <int D>
@@ -126,7 +153,7 @@ void average_state(const LevelGrid<D>& fine, const std::array<int, D>& ratio, co
   Field weight(coarse.extent.size, 0.0);
   for_each_cell<D>(fine.extent, [&](const auto& index, std::ptrdiff_t c) {
     const auto f = static_cast<std::size_t>(c);
-    if (fine.status[f] == CellStatus::blanked) return;
+    if (fine.status[f] == CellStatus::blanked || !fine.wet(c)) return;
     const auto p = static_cast<std::size_t>(coarse.extent.at(parent<D>(index, ratio)));
     const double v = fine.volume[f];
     weight[p] += v;
@@ -176,6 +203,10 @@ template std::array<int, 2> coarsening_ratio<2>(const std::array<int, 2>&, const
 template std::array<int, 3> coarsening_ratio<3>(const std::array<int, 3>&, const std::array<bool, 3>&);
 template LevelGrid<2> coarsen<2>(const LevelGrid<2>&, const std::array<int, 2>&);
 template LevelGrid<3> coarsen<3>(const LevelGrid<3>&, const std::array<int, 3>&);
+template void find_surface<2>(LevelGrid<2>&);
+template void find_surface<3>(LevelGrid<3>&);
+template void coarsen_phi<2>(const LevelGrid<2>&, const std::array<int, 2>&, LevelGrid<2>&);
+template void coarsen_phi<3>(const LevelGrid<3>&, const std::array<int, 3>&, LevelGrid<3>&);
 template void average_state<2>(const LevelGrid<2>&, const std::array<int, 2>&, const State<2>&,
                                const LevelGrid<2>&, State<2>&);
 template void average_state<3>(const LevelGrid<3>&, const std::array<int, 3>&, const State<3>&,

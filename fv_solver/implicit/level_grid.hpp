@@ -28,6 +28,8 @@ struct LevelGrid {
   std::array<std::array<Field, D>, D> area;  // [direction][component] lower face of the cell [m^(D-1)]
   std::vector<CellStatus> status;            // interior cells
   Field forcing;                             // K/delta of (21), 0 where not forced [1/s]; may be empty
+  Field phi;                                 // [m] level set, < 0 in water; empty without a free surface
+  std::vector<std::uint8_t> beside_air;      // 1: water with air beyond one of its faces; empty likewise
   std::array<bool, D> periodic{};            // both sides of this direction are each other's image
   std::array<std::array<std::vector<EdgeCondition>, 2>, D> edge;  // [direction][lower, upper] per face cell
   double far_speed = 0.0;                                         // [m/s] of far fields; 0: the local |u|
@@ -39,8 +41,9 @@ struct LevelGrid {
   std::size_t face_index(int d, const std::array<int, D>& index) const;
   bool solved(std::ptrdiff_t c) const {
     const CellStatus s = status[static_cast<std::size_t>(c)];
-    return s == CellStatus::computed || s == CellStatus::forced;
+    return (s == CellStatus::computed || s == CellStatus::forced) && wet(c);
   }
+  bool wet(std::ptrdiff_t c) const { return phi.empty() || phi[static_cast<std::size_t>(c)] < 0.0; }
   void set_edges(int d, int side, EdgeCondition condition);
 
  private:
@@ -83,6 +86,15 @@ std::array<int, D> coarsening_ratio(const LevelGrid<D>& fine) {
 /// is solved where at least half of its volume is.
 template <int D>
 LevelGrid<D> coarsen(const LevelGrid<D>& fine, const std::array<int, D>& ratio);
+
+/// Sets beside_air from phi, ghosts current.
+template <int D>
+void find_surface(LevelGrid<D>& grid);
+
+/// phi of the next level: the mean over the children that are not blanked, weighted with volume; first ghosts
+/// of periodic directions set.
+template <int D>
+void coarsen_phi(const LevelGrid<D>& fine, const std::array<int, D>& ratio, LevelGrid<D>& coarse);
 
 /// Averages the state over the children that hold one.
 template <int D>

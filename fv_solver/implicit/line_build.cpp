@@ -1,5 +1,6 @@
 // Building a LineOperator: the blocks of a bundle's cells in lanes, and their elimination along the lines.
 #include "implicit/line_operator.hpp"
+#include "implicit/surface_jacobian.hpp"
 
 namespace littoral::fv {
 namespace {
@@ -67,6 +68,31 @@ void set_lane(SmallMatrix<D, Lanes<double>>& a, std::size_t lane, const SmallMat
     for (std::size_t j = 0; j <= D; ++j) a[i][j][lane] = b[i][j];
 }
 
+/// The free surface between cell c, which holds water, and the air beyond its face on `side`.
+template <int D>
+SurfaceJacobian<D> surface_face(const LevelGrid<D>& grid, const State<D>& state,
+                                const CorrectionPhysics<D>& physics, std::ptrdiff_t c,
+                                const std::array<int, D>& index, std::size_t d, std::size_t side) {
+  const std::ptrdiff_t step = (side == 0 ? -1 : 1) * grid.extent.stride[d];
+  const auto at = [](std::ptrdiff_t cell) { return static_cast<std::size_t>(cell); };
+  const auto face = at(side == 0 ? c : c + step);
+  std::array<double, D> area;
+  FaceState<D> inside;
+  for (std::size_t k = 0; k < D; ++k) {
+    area[k] = (side == 0 ? -1.0 : 1.0) * grid.area[d][k][face];
+    inside.u[k] = state.u[k][at(c)];
+  }
+  const int last = side == 0 ? grid.extent.n[d] - 1 : 0;  // where the line ends behind the cell
+  const bool open_behind =
+      index[d] != last ||
+      grid.edge[d][1 - side][grid.face_index(static_cast<int>(d), index)] == EdgeCondition::link;
+  const double reach = grid.volume[at(c)] / (grid.volume[at(c)] + grid.volume[at(c + step)]);
+  const double theta = crossing(grid.phi[at(c)], grid.phi[at(c + step)]);
+  const LineStencil stencil = line_stencil(theta, open_behind && grid.wet(c - step), reach);
+  const LineWeights weights = line_weights(stencil, theta, 1.0, reach);
+  return surface_jacobian<D>(area, grid.volume[at(c)], inside, level_normal<D>(grid, c), weights, physics);
+}
+
 }  // namespace
 
 /// The cells of one bundle in turn, and what is carried from one to the next.
@@ -95,6 +121,12 @@ void LineOperator<D, Real>::build_bundle(const LevelGrid<D>& grid, const State<D
       if (line.index[l][d] == 0) at_edge[d][0] |= 1u << l;
       if (line.index[l][d] == grid.extent.n[d] - 1) at_edge[d][1] |= 1u << l;
     }
+  struct Behind {  // of a surface's pressure on the cell behind
+    std::size_t lane, direction, side;
+    std::array<double, D> by_p;
+  };
+  std::array<Behind, 2 * D * k_lanes> behind;
+  std::size_t n_behind = 0;
   using V = Lanes<double>;
   const auto velocity = [&](std::ptrdiff_t shift) {
     FaceState<D, V> q;
@@ -108,13 +140,33 @@ void LineOperator<D, Real>::build_bundle(const LevelGrid<D>& grid, const State<D
     load<S>(grid.volume.data() + shift, first, volume);
     const FaceState<D, V> here = velocity(shift);
     line.diagonal = Wide{};
+    unsigned wet_lanes = 0;  // lanes whose cells have a free surface beside them
+    for (std::size_t l = 0; !grid.beside_air.empty() && l < k_lanes; ++l)
+      if (grid.beside_air[static_cast<std::size_t>(first[l] + shift)] != 0) wet_lanes |= 1u << l;
+    n_behind = 0;
+    const auto set_surface = [&](std::size_t d, std::size_t side, Wide& own, Wide& neighbour) {
+      const std::ptrdiff_t step = (side == 0 ? -1 : 1) * grid.extent.stride[d];
+      for (std::size_t l = 0; l < k_lanes; ++l) {
+        const std::ptrdiff_t c = first[l] + shift;
+        if (!(wet_lanes >> l & 1u) || grid.wet(c + step)) continue;
+        if (line.index[l][d] == (side == 0 ? 0 : grid.extent.n[d] - 1) &&
+            grid.edge[d][side][grid.face_index(static_cast<int>(d), line.index[l])] != EdgeCondition::link)
+          continue;
+        const SurfaceJacobian<D> face = surface_face<D>(grid, state, physics, c, line.index[l], d, side);
+        set_lane<D>(own, l, face.own);
+        set_lane<D>(neighbour, l, SmallMatrix<D>{});
+        behind[n_behind++] = {l, d, side, face.behind_p};
+      }
+    };
     for (std::size_t d = 0, across = 0; d < D; ++d) {
       for (std::size_t side = 0; side < 2; ++side) {
         const bool along = d == dir, end = m == (side == 0 ? 0 : layout_.length - 1);
         Wide& neighbour = along ? (side == 0 ? line.lower : line.upper) : line.cross[2 * across + side];
         if (along && side == 0 && !end) {  // computed from the other side
-          subtract<D>(line.diagonal, line.by_right);
+          Wide own = negative<D>(line.by_right);
           neighbour = negative<D>(line.by_left);
+          if (wet_lanes != 0) set_surface(d, side, own, neighbour);
+          add<D>(line.diagonal, own);
           continue;
         }
         const std::ptrdiff_t step = (side == 0 ? -1 : 1) * grid.extent.stride[d];
@@ -151,6 +203,7 @@ void LineOperator<D, Real>::build_bundle(const LevelGrid<D>& grid, const State<D
                                            grid.imposed_distance[d]));
           set_lane<D>(neighbour, l, SmallMatrix<D>{});
         }
+        if (wet_lanes != 0) set_surface(d, side, own, neighbour);
         add<D>(line.diagonal, own);
         if (along && side == 1) {
           line.by_left = by_left;
@@ -158,6 +211,12 @@ void LineOperator<D, Real>::build_bundle(const LevelGrid<D>& grid, const State<D
         }
       }
       across += d == dir ? 0 : 1;
+    }
+    for (std::size_t b = 0; b < n_behind; ++b) {
+      const auto& [l, d, side, by_p] = behind[b];
+      const std::size_t across = d < dir ? d : d - 1;
+      Wide& opposite = d == dir ? (side == 0 ? line.upper : line.lower) : line.cross[2 * across + 1 - side];
+      for (std::size_t i = 0; i < D; ++i) opposite[i + 1][0][l] += by_p[i];
     }
     V forcing{};
     if (!grid.forcing.empty()) load<S>(grid.forcing.data() + shift, first, forcing);

@@ -143,16 +143,37 @@ void Multigrid<D, Real>::set_forcing(const std::vector<const Field*>& forcing) {
 }
 
 template <int D, class Real>
+void Multigrid<D, Real>::set_surface(const std::vector<Field>& phi) {
+  for (std::size_t i = 0; i < phi.size(); ++i) levels_[0]->blocks[i].grid.phi = phi[i];
+  for (std::size_t l = 0; l < levels_.size(); ++l) {
+    Level& level = *levels_[l];
+    if (l > 0) level.links.copy([&](std::size_t i) -> Field& { return level.blocks[i].grid.phi; }, true);
+    for (std::size_t i = 0; i < phi.size(); ++i) {
+      BlockLevel& block = level.blocks[i];
+      find_surface(block.grid);
+      if (l + 1 < levels_.size()) coarsen_phi<D>(block.grid, block.ratio, levels_[l + 1]->blocks[i].grid);
+    }
+  }
+  for (std::size_t l = 0; l + 1 < levels_.size(); ++l)
+    for (std::size_t i = 0; i < phi.size(); ++i) {
+      BlockLevel& block = levels_[l]->blocks[i];
+      block.transfer->set_solved(block.grid, levels_[l + 1]->blocks[i].grid);
+    }
+}
+
+template <int D, class Real>
 void Multigrid<D, Real>::build(const std::vector<const State<D>*>& states,
-                               const CorrectionPhysics<D>& physics,
-                               const std::vector<const Field*>& forcing) {
+                               const CorrectionPhysics<D>& physics, const std::vector<const Field*>& forcing,
+                               const std::vector<Field>* phi) {
   if (!forcing.empty()) set_forcing(forcing);
+  has_surface_ = phi != nullptr;
+  if (has_surface_) set_surface(*phi);
   // A free pressure level makes the coarsest operator singular; the right side has no such part, so a small
   // anchor there changes nothing but the division by zero.
   constexpr double k_anchor = 1e-4;
   for (std::size_t l = 0; l < levels_.size(); ++l) {
     const bool coarsest = l + 1 == levels_.size();
-    const double anchor = coarsest && closed_ && physics.fluid.inverse_c2 == 0.0 ? k_anchor : 0.0;
+    const double anchor = coarsest && closed() && physics.fluid.inverse_c2 == 0.0 ? k_anchor : 0.0;
     for (std::size_t i = 0; i < levels_[l]->blocks.size(); ++i) {
       BlockLevel& block = levels_[l]->blocks[i];
       const State<D>& state = l == 0 ? *states[i] : block.state;

@@ -36,8 +36,9 @@ class Multigrid {
 
   /// Renews all blocks: after a change of dt, of the BDF order, or of the state they are frozen at; states
   /// with ghosts current. forcing: K/delta of each block, null where none is forced; may be empty
+  /// phi: level set of each block, ghosts current; null: no free surface
   void build(const std::vector<const State<D>*>& states, const CorrectionPhysics<D>& physics,
-             const std::vector<const Field*>& forcing = {});
+             const std::vector<const Field*>& forcing = {}, const std::vector<Field>* phi = nullptr);
 
   /// Right side and correction of block i on the finest level, scaled as face_jacobian says.
   Correction<D, Real>& right_side(std::size_t i);
@@ -48,7 +49,9 @@ class Multigrid {
   /// b - A e on the finest level, into `r`. For tests.
   void residual(std::size_t i, Correction<D, Real>& r);
 
-  bool closed() const { return closed_; }  ///< nothing on the boundaries anchors the pressure
+  bool closed() const {
+    return closed_ && !has_surface_;
+  }  ///< nothing on the boundaries anchors the pressure
   int n_levels() const;
   const LevelGrid<D>& grid(int level, std::size_t i) const;
   const std::vector<int>& directions(std::size_t i) const;  ///< of the lines, finest level
@@ -70,10 +73,11 @@ class Multigrid {
   static std::vector<std::vector<Real*>> pointers(Level& level, FieldOf&& field_of);
   void descend(std::size_t l, bool fresh);
   void set_forcing(const std::vector<const Field*>& forcing);
+  void set_surface(const std::vector<Field>& phi);
   std::vector<std::unique_ptr<Level>> levels_;
   MultigridOptions options_;
   Owners owners_;
-  bool closed_ = false;
+  bool closed_ = false, has_surface_ = false;
 };
 
 }  // namespace littoral::fv

@@ -214,10 +214,12 @@ StepReport MultigridSolver<D, Real>::solve(const StepProblem<D>& problem, const 
     rates.push_back(forcing.active() ? &forcing.rate : nullptr);
     if (forcing.active()) physics.forcing_psi = forcing.psi;
   }
-  const bool floating = levels.multigrid.closed() && physics.fluid.inverse_c2 == 0.0;
+  const bool floating =
+      levels.multigrid.closed() && problem.surface == nullptr && physics.fluid.inverse_c2 == 0.0;
   levels.anderson.forget();
   StepReport report;
   double round_off = 0.0;
+  long water = -1;  // version of the surface for which the levels were built
   for (;; ++report.cycles) {
     problem.evaluate(q, levels.rows);
     report.norms.push_back(problem.norm(levels.rows));
@@ -227,10 +229,15 @@ StepReport MultigridSolver<D, Real>::solve(const StepProblem<D>& problem, const 
     report.converged =
         tolerance.met(report.norms.back(), report.norms.front()) || report.norms.back() <= round_off;
     if (report.converged || report.cycles == tolerance.max_cycles) return report;
-    if (report.cycles == 0) {
+    // cells that turned to water or air have other rows, and what was mixed before is not theirs
+    const long now = problem.surface != nullptr ? problem.surface->version() : 0;
+    if (report.cycles == 0 || now != water) {
       std::vector<const State<D>*> frozen;
       for (const auto& state : q) frozen.push_back(&state);
-      levels.multigrid.build(frozen, physics, rates);
+      levels.multigrid.build(frozen, physics, rates,
+                             problem.surface != nullptr ? &problem.surface->phi() : nullptr);
+      levels.anderson.forget();
+      water = now;
     }
     levels.multigrid.cycle();
     levels.read_correction(floating);

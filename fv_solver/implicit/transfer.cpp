@@ -54,6 +54,11 @@ Transfer<D>::Transfer(const LevelGrid<D>& fine, const LevelGrid<D>& coarse, cons
       }
     }
   }
+  set_solved(fine, coarse);
+}
+
+template <int D>
+void Transfer<D>::set_solved(const LevelGrid<D>& fine, const LevelGrid<D>& coarse) {
   fine_solved_.assign(fine_.size, 0);
   coarse_solved_.assign(coarse_.size, 0);
   for_each_cell<D>(fine_, [&](const auto&, std::ptrdiff_t c) {

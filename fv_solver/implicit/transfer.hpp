@@ -16,6 +16,9 @@ class Transfer {
  public:
   Transfer(const LevelGrid<D>& fine, const LevelGrid<D>& coarse, const std::array<int, D>& ratio);
 
+  /// Takes anew which cells are solved: after a change of status or surface.
+  void set_solved(const LevelGrid<D>& fine, const LevelGrid<D>& coarse);
+
   /// coarse = P^T fine, 0 in coarse cells that are not solved; ghosts of `fine` filled
   template <class Real>
   void restrict_residual(const Correction<D, Real>& fine, Correction<D, Real>& coarse) const;

@@ -53,6 +53,8 @@ void write_checkpoint(const std::string& path, const Stepper<D>& stepper, std::i
     put(group(level), "p", [&](std::size_t b) -> const Field& { return states[b].p; });
     for (std::size_t k = 0; k < D; ++k)
       put(group(level), component(k), [&](std::size_t b) -> const Field& { return states[b].u[k]; });
+    if (stepper.surface() != nullptr && level < memory.phi.size())
+      put(group(level), "phi", [&](std::size_t b) -> const Field& { return memory.phi[level][b]; });
   }
   if (more) more(file);
   file.commit();
@@ -94,6 +96,10 @@ std::int64_t read_checkpoint(const std::string& path, Stepper<D>& stepper, const
       State<D>& q = memory.level[level][i];
       q.p = read(level, "p");
       for (std::size_t k = 0; k < D; ++k) q.u[k] = read(level, component(k));
+    }
+    for (std::size_t level = 0; level < memory.phi.size() && stepper.surface() != nullptr; ++level) {
+      memory.phi[level].resize(mine.size());
+      memory.phi[level][i] = read(level, "phi");
     }
   }
   stepper.recall(memory);

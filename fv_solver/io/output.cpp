@@ -44,8 +44,11 @@ Integrals integrate_all(const Stepper<D>& stepper, const std::vector<coupler::Bo
   Integrals sum;
   for (std::size_t b = 0; b < stepper.blocks().size(); ++b) {
     const Block<D>& block = stepper.blocks()[b];
-    const Integrals part =
-        integrate<D>(block, stepper.equations().fluid, stepper.state()[b], outside_share<D>(block, regions));
+    const Field* phi = stepper.surface() != nullptr ? &stepper.surface()->phi()[b] : nullptr;
+    Field wet;
+    if (phi != nullptr) wet_shares<D>(block, *phi, wet);
+    const Field share = outside_share<D>(block, regions, phi != nullptr ? &wet : nullptr);
+    const Integrals part = integrate<D>(block, stepper.equations().fluid, stepper.state()[b], share, phi);
     sum.mass += part.mass;
     sum.kinetic_energy += part.kinetic_energy;
     sum.potential_energy += part.potential_energy;
@@ -71,6 +74,8 @@ Output<D>::Output(const std::string& folder, const FvConfig& config, const suppo
   if (!ranks_.root()) return;
   std::vector<std::string> columns = {"time", "dt", "cycles", "drop", "kinetic_energy", "potential_energy",
                                       "mass"};
+  if (stepper.surface() != nullptr)
+    for (const char* name : {"water_volume", "surface_cfl"}) columns.emplace_back(name);
   for (const auto& wall : walls_)
     for (const char* part : {".f", ".dynamic_f"})
       for (std::size_t a = 0; a < 3; ++a)
@@ -96,6 +101,10 @@ void Output<D>::row(const Stepper<D>& stepper, const StepReport& report, double 
   std::vector<double> values = {stepper.time(), stepper.last_dt(),         static_cast<double>(report.cycles),
                                 report.drop(),  integrals_.kinetic_energy, integrals_.potential_energy,
                                 integrals_.mass};
+  if (const FreeSurface<D>* surface = stepper.surface()) {
+    values.push_back(surface->volume(stepper.blocks(), stepper.exchange()));
+    values.push_back(surface->rate(stepper.blocks(), stepper.exchange()) * stepper.last_dt());
+  }
   for (const auto& wall : walls_) {
     const WallLoads loads =
         wall_loads<D>(stepper.blocks(), stepper.equations(), stepper.state(), wall, {}, ranks_);

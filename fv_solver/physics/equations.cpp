@@ -3,6 +3,7 @@
 #include <omp.h>
 
 #include "boundary/boundary_flux.hpp"
+#include "free_surface/cut_faces.hpp"
 #include "grid/loops.hpp"
 #include "physics/flux_rows.hpp"
 
@@ -36,7 +37,8 @@ class TileLoop {
  public:
   TileLoop(const Equations<D>& equations, const Block<D>& block, const State<D>& q, const double* p,
            const BackwardDifference& time, const History<D>& history, const Forcing<D>& forcing,
-           const BoundaryFluxes<D>& boundary, Residual<D>& r)
+           const BoundaryFluxes<D>& boundary, const FluxConstants<D>& constants, const CutFaces<D>* cut,
+           Residual<D>& r)
       : equations_(equations),
         block_(block),
         q_(q),
@@ -45,16 +47,9 @@ class TileLoop {
         history_(history),
         forcing_(forcing),
         boundary_(boundary),
-        r_(r) {
-    const Fluid<D>& f = equations.fluid;
-    constants_ = {f.density,
-                  f.reference_pressure,
-                  f.inverse_c2,
-                  equations.speeds.c0,
-                  equations.speeds.kappa / time.dt,
-                  f.density * f.viscosity,
-                  upwinding(equations.flux)};
-  }
+        cut_(cut),
+        r_(r),
+        constants_(constants) {}
 
   template <bool Compressible, bool Limited>
   void run(const std::array<int, D>& lower, const std::array<int, D>& upper, Buffers<D>& buffers) const {
@@ -113,6 +108,12 @@ class TileLoop {
   void add_friction(std::size_t d, std::ptrdiff_t first, std::ptrdiff_t n, const FluxRow<D>& f) const {
     if (constants_.mu != 0.0) subtract_stress_row<D>(block_, q_, d, first, n, constants_.mu, f);
   }
+  /// Replaces fluxes of a row where the free surface cuts its stencils.
+  void put_cut(std::size_t d, const std::array<int, D>& index, std::ptrdiff_t n, const FluxRow<D>& f,
+               bool after_friction) const {
+    if (cut_ != nullptr && (!after_friction || constants_.mu != 0.0))
+      cut_->put(d, index, n, f, after_friction);
+  }
   /// Replaces fluxes of a row that lies on the block's face by the windows' own.
   static void put_given(const FaceFlux<D>& face, std::size_t position, std::ptrdiff_t n, std::ptrdiff_t to,
                         const FluxRow<D>& f) {
@@ -145,10 +146,12 @@ class TileLoop {
       const std::ptrdiff_t c = block_.extent.at(index);
       const std::ptrdiff_t n = end - begin;
       flux_row<Compressible, Limited>(0, c, n + 1, f);
+      put_cut(0, index, n + 1, f, false);
       const std::size_t position = face_position<D>(block_, 0, index);
       if (begin == 0 && boundary_[0][0].any) put_given(boundary_[0][0], position, 1, 0, f);
       if (end == block_.extent.n[0] && boundary_[0][1].any) put_given(boundary_[0][1], position, 1, n, f);
       add_friction(0, c, n + 1, f);
+      put_cut(0, index, n + 1, f, true);
       accumulate(c, n, f, f, 1);
     });
   }
@@ -166,10 +169,12 @@ class TileLoop {
         index[d] = j;
         const std::ptrdiff_t c = block_.extent.at(index);
         flux_row<Compressible, Limited>(d, c, n, f[1]);
+        put_cut(d, index, n, f[1], false);
         const bool last = j == block_.extent.n[d];
         if ((j == 0 || last) && boundary_[d][last ? 1 : 0].any)
           put_given(boundary_[d][last ? 1 : 0], face_position<D>(block_, d, index), n, 0, f[1]);
         add_friction(d, c, n, f[1]);
+        put_cut(d, index, n, f[1], true);
         if (j > begin) accumulate(c - block_.extent.stride[d], n, f[1], f[0], 0);
         std::swap(f[0], f[1]);
       }
@@ -221,8 +226,9 @@ class TileLoop {
   const History<D>& history_;
   const Forcing<D>& forcing_;
   const BoundaryFluxes<D>& boundary_;
+  const CutFaces<D>* cut_;
   Residual<D>& r_;
-  FluxConstants<D> constants_{};
+  FluxConstants<D> constants_;
 };
 
 /// Tiles over the directions across the rows.
@@ -247,7 +253,8 @@ std::vector<std::pair<std::array<int, D>, std::array<int, D>>> tiles_of(const Bl
 
 template <int D>
 void Equations<D>::residual(const Block<D>& block, const State<D>& q, const BackwardDifference& time,
-                            const History<D>& history, const Forcing<D>& forcing, Residual<D>& r) const {
+                            const History<D>& history, const Forcing<D>& forcing, Residual<D>& r,
+                            const BlockSurface<D>* surface) const {
   if (r.mass.size() != block.extent.size) r.resize(block.extent.size);
   relative_pressure_.resize(block.extent.size);
   const auto size = static_cast<std::ptrdiff_t>(block.extent.size);
@@ -261,7 +268,14 @@ void Equations<D>::residual(const Block<D>& block, const State<D>& q, const Back
   const double* p = relative_pressure_.data();
   BoundaryFluxes<D> boundary;
   compute_boundary_fluxes<D>(block, fluid, speeds, time.dt, p, q, boundary);
-  const TileLoop<D> loop(*this, block, q, p, time, history, forcing, boundary, r);
+  const FluxConstants<D> constants{fluid.density,  fluid.reference_pressure, fluid.inverse_c2,
+                                   speeds.c0,      speeds.kappa / time.dt,   fluid.density * fluid.viscosity,
+                                   upwinding(flux)};
+  if (surface != nullptr)
+    surface->faces.compute(block, fluid, constants, limiter != Limiter::none, surface->phi, surface->wet,
+                           surface->settled, p, q);
+  const TileLoop<D> loop(*this, block, q, p, time, history, forcing, boundary, constants,
+                         surface != nullptr ? &surface->faces : nullptr, r);
   const auto tiles = tiles_of(block);
   const auto n_tiles = static_cast<std::ptrdiff_t>(tiles.size());
   const bool compressible = fluid.inverse_c2 != 0.0, limited = limiter != Limiter::none;

@@ -43,6 +43,9 @@ struct Forcing {
   bool active() const { return !rate.empty(); }
 };
 
+template <int D>
+struct BlockSurface;  // free_surface/cut_faces.hpp
+
 /// The old time levels and sources of one step, per volume: the time term of a row is
 /// V (a0 q + history), q = (p - P)/c^2 (the part of rho that changes) or rho u. Steady: minus the sources.
 template <int D>
@@ -69,10 +72,12 @@ struct Equations {
   FluxScheme flux = FluxScheme::upwind3;
 
   /// in   q with ghosts current (fill_ghosts), block metrics, windows evaluated
+  ///      surface: where the free surface cuts the block, its cut faces found; null: nowhere
   /// out  r (resized if needed), inner cells
   /// comm local; OpenMP inside; not to be called for two blocks at the same time (workspace)
   void residual(const Block<D>& block, const State<D>& q, const BackwardDifference& time,
-                const History<D>& history, const Forcing<D>& forcing, Residual<D>& r) const;
+                const History<D>& history, const Forcing<D>& forcing, Residual<D>& r,
+                const BlockSurface<D>* surface = nullptr) const;
 
  private:
   mutable Field relative_pressure_;  // [Pa] p - P, of the block last evaluated

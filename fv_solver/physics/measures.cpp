@@ -10,8 +10,14 @@
 namespace littoral::fv {
 
 template <int D>
-Field outside_share(const Block<D>& block, const std::vector<coupler::Box>& regions) {
+Field outside_share(const Block<D>& block, const std::vector<coupler::Box>& regions, const Field* wet) {
   Field share = block.solved;
+  if (wet != nullptr)
+    for_each_index<D>({}, block.extent.n, [&](const std::array<int, D>& index) {
+      const auto c = static_cast<std::size_t>(block.extent.at(index));
+      const CellStatus s = block.status[c];
+      share[c] = s == CellStatus::computed || s == CellStatus::forced ? (*wet)[c] : 0.0;
+    });
   if (regions.empty()) return share;
   for_each_index<D>({}, block.extent.n, [&](const std::array<int, D>& index) {
     const auto c = static_cast<std::size_t>(block.extent.at(index));
@@ -42,8 +48,33 @@ Field outside_share(const Block<D>& block, const std::vector<coupler::Box>& regi
   return share;
 }
 
+namespace {
+
+/// Height of the water's centre over the cell's against gravity, times g: the cell cut by the plane of phi,
+/// as if it were upright.
 template <int D>
-Integrals integrate(const Block<D>& block, const Fluid<D>& fluid, const State<D>& q, const Field& share) {
+double lift(const Block<D>& block, const Fluid<D>& fluid, const Field& phi, std::size_t c, double share) {
+  std::array<double, D> slope{};  // V grad phi
+  double thickness = 0.0, size2 = 0.0, along = 0.0;
+  for (std::size_t d = 0; d < D; ++d) {
+    const auto s = static_cast<std::size_t>(block.extent.stride[d]);
+    const double change = 0.5 * (phi[c + s] - phi[c - s]);
+    thickness += std::abs(change);
+    for (std::size_t k = 0; k < D; ++k)
+      slope[k] += change * 0.5 * (block.area[d][k][c] + block.area[d][k][c + s]);
+  }
+  for (std::size_t k = 0; k < D; ++k) {
+    size2 += slope[k] * slope[k];
+    along += fluid.gravity[k] * slope[k];
+  }
+  return size2 > 0.0 ? 0.5 * (1.0 - share) * thickness * along / std::sqrt(size2) : 0.0;
+}
+
+}  // namespace
+
+template <int D>
+Integrals integrate(const Block<D>& block, const Fluid<D>& fluid, const State<D>& q, const Field& share,
+                    const Field* phi) {
   Integrals sum;
   for_each_index<D>({}, block.extent.n, [&](const std::array<int, D>& index) {
     const auto c = static_cast<std::size_t>(block.extent.at(index));
@@ -53,6 +84,8 @@ Integrals integrate(const Block<D>& block, const Fluid<D>& fluid, const State<D>
       speed2 += q.u[k][c] * q.u[k][c];
       height -= fluid.gravity[k] * block.centre[k][c];
     }
+    if (phi != nullptr && share[c] > 0.0 && share[c] < 1.0)
+      height += lift<D>(block, fluid, *phi, c, share[c]);
     sum.mass += mass;
     sum.kinetic_energy += 0.5 * mass * speed2;
     sum.potential_energy += mass * height;
@@ -82,10 +115,12 @@ double convective_rate(const Block<D>& block, const State<D>& q, double least) {
   return fastest;
 }
 
-template Field outside_share<2>(const Block<2>&, const std::vector<coupler::Box>&);
-template Field outside_share<3>(const Block<3>&, const std::vector<coupler::Box>&);
-template Integrals integrate<2>(const Block<2>&, const Fluid<2>&, const State<2>&, const Field&);
-template Integrals integrate<3>(const Block<3>&, const Fluid<3>&, const State<3>&, const Field&);
+template Field outside_share<2>(const Block<2>&, const std::vector<coupler::Box>&, const Field*);
+template Field outside_share<3>(const Block<3>&, const std::vector<coupler::Box>&, const Field*);
+template Integrals integrate<2>(const Block<2>&, const Fluid<2>&, const State<2>&, const Field&,
+                                const Field*);
+template Integrals integrate<3>(const Block<3>&, const Fluid<3>&, const State<3>&, const Field&,
+                                const Field*);
 template double convective_rate<2>(const Block<2>&, const State<2>&, double);
 template double convective_rate<3>(const Block<3>&, const State<3>&, double);
 

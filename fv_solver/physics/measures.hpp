@@ -18,12 +18,16 @@ struct Integrals {
 };
 
 /// Share of each cell outside the boxes, 0 where the cell is not solved: by the cells' bounding boxes, exact
-/// where the grid is aligned with the region.
+/// where the grid is aligned with the region. wet: the part of each cell below a free surface
+/// (level_set/volume.hpp), null: all; cells count by it whose centres are in the air, too
 template <int D>
-Field outside_share(const Block<D>& block, const std::vector<coupler::Box>& regions);
+Field outside_share(const Block<D>& block, const std::vector<coupler::Box>& regions,
+                    const Field* wet = nullptr);
 
+/// phi: where a free surface cuts cells, so that what they hold is lifted by its own centre; null: nowhere
 template <int D>
-Integrals integrate(const Block<D>& block, const Fluid<D>& fluid, const State<D>& q, const Field& share);
+Integrals integrate(const Block<D>& block, const Fluid<D>& fluid, const State<D>& q, const Field& share,
+                    const Field* phi = nullptr);
 
 /// Largest sum over the directions of |u . A| (at least `least` S) over the volume: 1/CFL of a unit step
 /// [1/s].

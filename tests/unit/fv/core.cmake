@@ -3,6 +3,7 @@ littoral_gtest(
   PREFIX fv
   SOURCES box_test.cpp cut_test.cpp
           flows_test.cpp
+          free_surface_test.cpp
           generators_test.cpp
           grid_config_test.cpp grid_parts_test.cpp
           joins_test.cpp

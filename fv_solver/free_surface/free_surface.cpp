@@ -1,0 +1,170 @@
+#include "free_surface/free_surface.hpp"
+
+#include <limits>
+
+#include "grid/metrics.hpp"
+
+namespace littoral::fv {
+namespace {
+
+/// Residual of phi at which a step ends, over the pseudo sound speed, and rounds of sweeps at most.
+constexpr double k_phi_tolerance = 1e-9;
+constexpr int k_last_rounds = 20;
+
+}  // namespace
+
+template <int D>
+void FreeSurface<D>::initialise(std::vector<Block<D>>& blocks, const Exchange<D>& exchange,
+                                const Fluid<D>& fluid, const Prescribed& surface, double t,
+                                std::vector<State<D>>& q) {
+  set_.initialise(blocks, exchange, surface, t);
+  past_ = set_.phi;
+  start_ = {set_.phi, past_};
+  set_masks(blocks, exchange);
+  continue_all(blocks, exchange, fluid, q);
+}
+
+template <int D>
+void FreeSurface<D>::begin(std::vector<Block<D>>& blocks, const Exchange<D>& exchange,
+                           const BackwardDifference& scheme, double ahead) {
+  // anew from phi^n alone, so that a continued run has the same to the bit
+  locate_surface<D>(blocks, exchange, set_.phi, set_.options.layers, set_.band, set_.patches);
+  start_ = {set_.phi, past_};
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    for (std::size_t c = 0; c < set_.phi[b].size(); ++c)
+      set_.phi[b][c] += ahead * (set_.phi[b][c] - past_[b][c]);
+  exchange.scalar(blocks, set_.phi, ScalarGhosts::level_set);
+  set_masks(blocks, exchange);
+  scheme_ = scheme;
+  evaluations_ = 0;
+}
+
+template <int D>
+void FreeSurface<D>::follow(std::vector<Block<D>>& blocks, const Exchange<D>& exchange,
+                            const Equations<D>& equations, std::vector<State<D>>& q) {
+  exchange.states(blocks, q);
+  continue_flow(blocks, exchange, q);
+  exchange.states(blocks, q);
+  std::vector<const VectorField<D>*> u;
+  for (const auto& state : q) u.push_back(&state.u);
+  set_.follower.follow(blocks, exchange, set_.band, set_.patches, set_.phi, u, set_.surface_velocity);
+  move_phi(blocks, exchange);
+  if (evaluations_++ < k_settling) set_masks(blocks, exchange);
+  continue_pressure(blocks, equations.fluid, q);
+}
+
+template <int D>
+double FreeSurface<D>::move_phi(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange) {
+  const SurfaceStep<D> step{scheme_, start_[0], start_[1], set_.forcing, set_.band, set_.patches};
+  return transport<D>(blocks, exchange, step, set_.surface_velocity, set_.options.sweeps, set_.phi);
+}
+
+template <int D>
+void FreeSurface<D>::end(std::vector<Block<D>>& blocks, const Exchange<D>& exchange,
+                         const Equations<D>& equations, std::vector<State<D>>& q) {
+  for (int round = 0; round < k_last_rounds; ++round)
+    if (exchange.ranks().largest(move_phi(blocks, exchange)) <= k_phi_tolerance * equations.speeds.c0) break;
+  evaluations_ = 0;
+  past_ = start_[0];
+  reinitialise<D>(blocks, exchange, set_.options.layers, InterfaceCells::frozen, set_.phi, set_.band,
+                  set_.patches, &past_);
+  set_masks(blocks, exchange);
+  continue_all(blocks, exchange, equations.fluid, q);
+}
+
+template <int D>
+void FreeSurface<D>::restore(std::vector<Block<D>>& blocks, const Exchange<D>& exchange) {
+  set_.phi = start_[0];
+  past_ = start_[1];
+  set_masks(blocks, exchange);
+}
+
+template <int D>
+void FreeSurface<D>::recall(std::vector<Block<D>>& blocks, const Exchange<D>& exchange,
+                            const Memory& memory) {
+  set_.phi = memory[0];
+  past_ = memory[1];
+  set_masks(blocks, exchange);
+}
+
+template <int D>
+void FreeSurface<D>::continue_all(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange,
+                                  const Fluid<D>& fluid, std::vector<State<D>>& q) {
+  exchange.states(blocks, q);
+  continue_flow(blocks, exchange, q);
+  continue_pressure(blocks, fluid, q);
+  exchange.states(blocks, q);
+}
+
+template <int D>
+void FreeSurface<D>::set_masks(std::vector<Block<D>>& blocks, const Exchange<D>& exchange) {
+  bool changed = wet_.size() != blocks.size();
+  wet_.resize(blocks.size());
+  cut_.resize(blocks.size());
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    const Field& phi = set_.phi[b];
+    WetMask& wet = wet_[b];
+    bool other = wet.size() != phi.size();
+    wet.resize(phi.size());
+    for (std::size_t c = 0; c < phi.size(); ++c) {
+      const std::uint8_t now = phi[c] < 0.0 ? 1 : 0;
+      other = other || now != wet[c];
+      wet[c] = now;
+    }
+    if (!other) continue;
+    changed = true;
+    cut_[b].find(blocks[b], wet);
+  }
+  if (exchange.ranks().any(changed)) ++version_;
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    set_solved_mask(blocks[b]);
+    for (std::size_t c = 0; c < wet_[b].size(); ++c)
+      if (wet_[b][c] == 0) blocks[b].solved[c] = 0.0;
+  }
+}
+
+template <int D>
+void FreeSurface<D>::continue_flow(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange,
+                                   std::vector<State<D>>& q) {
+  std::vector<VectorField<D>*> u;
+  for (auto& state : q) u.push_back(&state.u);
+  const auto extend = [&](const std::vector<Field>& phi) {
+    set_.extension.extend(blocks, exchange, set_.band, set_.patches, phi, set_.options.extension_layers, u);
+  };
+  if (evaluations_ <= k_settling) {
+    extend(set_.phi);
+    return;
+  }
+  // the mask rests: what is solved must not be taken for air, though its phi has changed sign since
+  std::vector<Field> held = set_.phi;
+  for (std::size_t b = 0; b < held.size(); ++b)
+    for (std::size_t c = 0; c < held[b].size(); ++c)
+      if ((held[b][c] < 0.0) != (wet_[b][c] != 0))
+        held[b][c] = (wet_[b][c] != 0 ? -1.0 : 1.0) * std::numeric_limits<double>::min();
+  extend(held);
+}
+
+/// Beyond the surface p - P keeps the value that it has on it: what gradients beside walls and output read,
+/// and from which a cell that turns to water starts. Fluxes never read it (CutFaces).
+template <int D>
+void FreeSurface<D>::continue_pressure(const std::vector<Block<D>>& blocks, const Fluid<D>& fluid,
+                                       std::vector<State<D>>& q) const {
+  constexpr int k_layers = 2;
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    const Block<D>& block = blocks[b];
+    const Field& phi = set_.phi[b];
+    for (const std::ptrdiff_t cell : set_.band.cells(b, 0, k_layers)) {
+      const auto c = static_cast<std::size_t>(cell);
+      if (wet_[b][c] != 0) continue;
+      const SpaceVector<D> n = surface_normal<D>(block, phi, cell);
+      SpaceVector<D> foot;
+      for (std::size_t k = 0; k < D; ++k) foot[k] = block.centre[k][c] - phi[c] * n[k];
+      q[b].p[c] = block.reference_pressure[c] + fluid.reference_pressure - fluid.hydrostatic(foot);
+    }
+  }
+}
+
+template class FreeSurface<2>;
+template class FreeSurface<3>;
+
+}  // namespace littoral::fv

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "free_surface/cut_faces.hpp"
+#include "level_set/level_set.hpp"
+#include "physics/equations.hpp"
+
+namespace littoral::fv {
+
+/// The free surface of a scene that has one: the level set, its time levels, and what it does to the flow.
+/// The stepper calls, in this order (comm collective, all of them),
+///   begin    the band of phi^n and its closest surface points; phi extrapolated
+///   follow   in every evaluation of the residual: u continued into the air, phi by (7), (23) with the
+///   velocity
+///            of the closest surface point, the cells that are water, the faces that the surface cuts
+///   end      phi made a distance again without moving its zero level, u continued about the new surface, so
+///            that cells that turn to water hold usable u^n, u^n-1
+template <int D>
+class FreeSurface {
+ public:
+  explicit FreeSurface(const LevelSetOptions& options = {}) { set_.options = options; }
+
+  /// The surface at time t from a function < 0 in water; q's u and p continued into the air.
+  /// throws ConfigError where the function is not finite
+  void initialise(std::vector<Block<D>>& blocks, const Exchange<D>& exchange, const Fluid<D>& fluid,
+                  const Prescribed& surface, double t, std::vector<State<D>>& q);
+
+  /// A step of `scheme` begins, `ahead` = dt/dt before (0 in the first).
+  void begin(std::vector<Block<D>>& blocks, const Exchange<D>& exchange, const BackwardDifference& scheme,
+             double ahead);
+  /// in/out q: u and p in the air; ghosts not current on return
+  void follow(std::vector<Block<D>>& blocks, const Exchange<D>& exchange, const Equations<D>& equations,
+              std::vector<State<D>>& q);
+  void end(std::vector<Block<D>>& blocks, const Exchange<D>& exchange, const Equations<D>& equations,
+           std::vector<State<D>>& q);
+  /// Back to before the last begin.
+  void restore(std::vector<Block<D>>& blocks, const Exchange<D>& exchange);
+
+  /// Of a block, as it stands: for Equations::residual.
+  BlockSurface<D> block(std::size_t b) { return {set_.phi[b], wet_[b], evaluations_ > k_settling, cut_[b]}; }
+  const std::vector<Field>& phi() const { return set_.phi; }
+  const std::vector<WetMask>& wet() const { return wet_; }
+  LevelSet<D>& level_set() { return set_; }
+  const LevelSet<D>& level_set() const { return set_; }
+  /// The surface's Courant number of a unit step [1/s].
+  double rate(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange) const {
+    return set_.surface_velocity.empty()
+               ? 0.0
+               : exchange.ranks().largest(surface_rate<D>(blocks, set_.band, set_.surface_velocity));
+  }
+  /// Of the water in all solved cells [m^D].
+  double volume(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange) const {
+    return exchange.ranks().sum(water_volume<D>(blocks, set_.phi));
+  }
+  /// Counts the changes of which cells are water.
+  long version() const { return version_; }
+
+  /// What a continuation needs: phi^n and phi^n-1.
+  using Memory = std::array<std::vector<Field>, 2>;
+  Memory memory() const { return {set_.phi, past_}; }
+  void recall(std::vector<Block<D>>& blocks, const Exchange<D>& exchange, const Memory& memory);
+
+ private:
+  /// Evaluations of a step in which cells may still turn to water or air, and stencils may be switched. After
+  /// that they rest, so that a surface at a cell's centre or face cannot keep the inner iteration from
+  /// converging; phi goes on.
+  static constexpr int k_settling = 6;
+
+  void set_masks(std::vector<Block<D>>& blocks, const Exchange<D>& exchange);
+  /// Sweeps of (7), (23); the residual before the last [m/s].
+  double move_phi(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange);
+  void continue_flow(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange,
+                     std::vector<State<D>>& q);
+  void continue_all(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange, const Fluid<D>& fluid,
+                    std::vector<State<D>>& q);
+  void continue_pressure(const std::vector<Block<D>>& blocks, const Fluid<D>& fluid,
+                         std::vector<State<D>>& q) const;
+
+  LevelSet<D> set_;
+  std::vector<Field> past_;  // [m] phi^n-1, cells new in the band completed
+  Memory start_;             // [m] phi^n, phi^n-1 of the step just done or under way
+  BackwardDifference scheme_;
+  std::vector<WetMask> wet_;      // [block]
+  std::vector<CutFaces<D>> cut_;  // [block]
+  long version_ = 0;
+  int evaluations_ = 0;  // of this step
+};
+
+}  // namespace littoral::fv
