@@ -64,7 +64,7 @@ Numerics<D> setup(Precision precision) {
   numerics.eos = {1000.0, 10.0, 0.0};
   numerics.spacing = 1.0;
   numerics.kernel_radius = D == 2 ? 4.98 : 2.65;
-  numerics.skin = 0.3;
+  numerics.skin = 0.5;
   numerics.reference_velocity = 1.0;
   numerics.free_surface = true;
   numerics.precision = precision;
