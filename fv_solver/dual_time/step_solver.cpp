@@ -20,6 +20,7 @@ void StepProblem<D>::evaluate(std::vector<State<D>>& q, std::vector<Residual<D>>
     const BlockSurface<D> cut = surface->block(b);
     equations.residual(blocks[b], q[b], time, history[b], forcing[b], r[b], &cut);
   }
+  if (surface != nullptr) surface->release_drops(r);
   exchange.share_fluxes(blocks, equations.fluid, q, r);
   if (!exchange.closed_contour().empty() && equations.fluid.inverse_c2 == 0.0 && surface == nullptr)
     exchange.closed_contour().close(blocks, r);

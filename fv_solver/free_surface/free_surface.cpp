@@ -2,10 +2,26 @@
 
 #include <limits>
 
+#include "grid/loops.hpp"
 #include "grid/metrics.hpp"
 
 namespace littoral::fv {
 namespace {
+
+/// Inner cells of water without water across any face.
+template <int D>
+std::vector<std::ptrdiff_t> cells_alone(const Block<D>& block, const WetMask& wet) {
+  std::vector<std::ptrdiff_t> alone;
+  for_each_index<D>({}, block.extent.n, [&](const std::array<int, D>& index) {
+    const std::ptrdiff_t c = block.extent.at(index);
+    bool water = wet[static_cast<std::size_t>(c)] == 0;
+    for (std::size_t d = 0; d < D; ++d)
+      for (const std::ptrdiff_t step : {-block.extent.stride[d], block.extent.stride[d]})
+        water = water || wet[static_cast<std::size_t>(c + step)] != 0;
+    if (!water) alone.push_back(c);
+  });
+  return alone;
+}
 
 /// Residual of phi at which a step ends, over the pseudo sound speed, and rounds of sweeps at most.
 constexpr double k_phi_tolerance = 1e-9;
@@ -73,6 +89,12 @@ void FreeSurface<D>::end(std::vector<Block<D>>& blocks, const Exchange<D>& excha
 }
 
 template <int D>
+void FreeSurface<D>::release_drops(std::vector<Residual<D>>& r) const {
+  for (std::size_t b = 0; b < drops_.size(); ++b)
+    for (const std::ptrdiff_t c : drops_[b]) r[b].mass[static_cast<std::size_t>(c)] = 0.0;
+}
+
+template <int D>
 void FreeSurface<D>::restore(std::vector<Block<D>>& blocks, const Exchange<D>& exchange) {
   set_.phi = start_[0];
   past_ = start_[1];
@@ -101,6 +123,7 @@ void FreeSurface<D>::set_masks(std::vector<Block<D>>& blocks, const Exchange<D>&
   bool changed = wet_.size() != blocks.size();
   wet_.resize(blocks.size());
   cut_.resize(blocks.size());
+  drops_.resize(blocks.size());
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const Field& phi = set_.phi[b];
     WetMask& wet = wet_[b];
@@ -114,6 +137,7 @@ void FreeSurface<D>::set_masks(std::vector<Block<D>>& blocks, const Exchange<D>&
     if (!other) continue;
     changed = true;
     cut_[b].find(blocks[b], wet);
+    drops_[b] = cells_alone<D>(blocks[b], wet);
   }
   if (exchange.ranks().any(changed)) ++version_;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
@@ -153,14 +177,16 @@ void FreeSurface<D>::continue_pressure(const std::vector<Block<D>>& blocks, cons
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const Block<D>& block = blocks[b];
     const Field& phi = set_.phi[b];
-    for (const std::ptrdiff_t cell : set_.band.cells(b, 0, k_layers)) {
+    const auto set = [&](std::ptrdiff_t cell) {
       const auto c = static_cast<std::size_t>(cell);
-      if (wet_[b][c] != 0) continue;
       const SpaceVector<D> n = surface_normal<D>(block, phi, cell);
       SpaceVector<D> foot;
       for (std::size_t k = 0; k < D; ++k) foot[k] = block.centre[k][c] - phi[c] * n[k];
       q[b].p[c] = block.reference_pressure[c] + fluid.reference_pressure - fluid.hydrostatic(foot);
-    }
+    };
+    for (const std::ptrdiff_t cell : set_.band.cells(b, 0, k_layers))
+      if (wet_[b][static_cast<std::size_t>(cell)] == 0) set(cell);
+    for (const std::ptrdiff_t cell : drops_[b]) set(cell);
   }
 }
 

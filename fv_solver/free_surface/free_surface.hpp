@@ -35,6 +35,9 @@ class FreeSurface {
               std::vector<State<D>>& q);
   void end(std::vector<Block<D>>& blocks, const Exchange<D>& exchange, const Equations<D>& equations,
            std::vector<State<D>>& q);
+  /// Takes the mass rows off cells of water that have air on all sides: they fall freely, their pressure is
+  /// the surface's, and nothing depends on it.
+  void release_drops(std::vector<Residual<D>>& r) const;
   /// Back to before the last begin.
   void restore(std::vector<Block<D>>& blocks, const Exchange<D>& exchange);
 
@@ -82,8 +85,9 @@ class FreeSurface {
   std::vector<Field> past_;  // [m] phi^n-1, cells new in the band completed
   Memory start_;             // [m] phi^n, phi^n-1 of the step just done or under way
   BackwardDifference scheme_;
-  std::vector<WetMask> wet_;      // [block]
-  std::vector<CutFaces<D>> cut_;  // [block]
+  std::vector<WetMask> wet_;                        // [block]
+  std::vector<CutFaces<D>> cut_;                    // [block]
+  std::vector<std::vector<std::ptrdiff_t>> drops_;  // [block] cells of water alone
   long version_ = 0;
   int evaluations_ = 0;  // of this step
 };

@@ -123,10 +123,11 @@ void find_surface(LevelGrid<D>& grid) {
   grid.beside_air.assign(grid.extent.size, 0);
   for_each_cell<D>(grid.extent, [&](const auto&, std::ptrdiff_t c) {
     if (!grid.wet(c)) return;
-    bool air = false;
+    std::size_t air = 0;
     for (std::size_t d = 0; d < D; ++d)
-      air = air || !grid.wet(c - grid.extent.stride[d]) || !grid.wet(c + grid.extent.stride[d]);
-    grid.beside_air[static_cast<std::size_t>(c)] = air ? 1 : 0;
+      for (const std::ptrdiff_t step : {-grid.extent.stride[d], grid.extent.stride[d]})
+        air += grid.wet(c + step) ? 0 : 1;
+    grid.beside_air[static_cast<std::size_t>(c)] = air == 0 ? 0 : air < 2 * D ? 1 : 2;
   });
 }
 

@@ -29,7 +29,7 @@ struct LevelGrid {
   std::vector<CellStatus> status;            // interior cells
   Field forcing;                             // K/delta of (21), 0 where not forced [1/s]; may be empty
   Field phi;                                 // [m] level set, < 0 in water; empty without a free surface
-  std::vector<std::uint8_t> beside_air;      // 1: water with air beyond one of its faces; empty likewise
+  std::vector<std::uint8_t> beside_air;      // 1: water with air beyond a face, 2: beyond all; empty likewise
   std::array<bool, D> periodic{};            // both sides of this direction are each other's image
   std::array<std::array<std::vector<EdgeCondition>, 2>, D> edge;  // [direction][lower, upper] per face cell
   double far_speed = 0.0;                                         // [m/s] of far fields; 0: the local |u|

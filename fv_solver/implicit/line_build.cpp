@@ -221,6 +221,9 @@ void LineOperator<D, Real>::build_bundle(const LevelGrid<D>& grid, const State<D
     V forcing{};
     if (!grid.forcing.empty()) load<S>(grid.forcing.data() + shift, first, forcing);
     add_cell_jacobian<D>(volume, forcing, here, physics, line.diagonal);
+    for (std::size_t l = 0; wet_lanes != 0 && l < k_lanes; ++l)  // a cell of water alone has no mass row
+      if (grid.beside_air[static_cast<std::size_t>(first[l] + shift)] == 2)
+        for (std::size_t j = 0; j <= D; ++j) line.diagonal[0][j][l] = j == 0 ? 1.0 : 0.0;
     line.diagonal[0][0] *= 1.0 + anchor;
     // a pressure on which nothing depends (a cell alone between walls, c infinite) stays as it is
     const V one_p = 1.0 + V{};

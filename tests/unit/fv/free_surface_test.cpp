@@ -118,6 +118,31 @@ TEST(FreeSurfaceTest, AColumnRisesUniformlyAndItsFreshCellsMoveWithIt) {
   EXPECT_NEAR(volume, 6.0 / 16.0 * (start + w * 30 * dt), 1e-9);
 }
 
+TEST(FreeSurfaceTest, ADropOfOneCellFallsFreely) {
+  Fluid<2> fluid;
+  fluid.gravity = {0.0, -k_g};
+  Block<2> block = make_block<2>("tank", {12, 12}, {true, false}, [](const std::array<int, 2>& i) {
+    return std::array<double, 2>{i[0] / 12.0, i[1] / 12.0};
+  });
+  close_with<2>(block, Condition::slip);
+  block.windows[0].condition = block.windows[1].condition = Condition::periodic;
+  const std::array<int, 2> drop = {6, 8};
+  const double x = block.centre[0][static_cast<std::size_t>(block.extent.at(drop))], z = 8.5 / 12.0;
+  auto stepper = tank_with_surface<2>(
+      block, fluid, [](const std::array<double, 2>&, double) { return PointState<2>{}; },
+      [=](const std::array<double, 3>& at, double) {
+        return std::min(at[2] - 0.21, std::hypot(at[0] - x, at[2] - z) - 0.07);
+      });
+  constexpr double dt = 0.005;
+  for (int step = 1; step <= 3; ++step) {
+    EXPECT_TRUE(stepper.advance(dt).converged);
+    const auto c = static_cast<std::size_t>(stepper.blocks()[0].extent.at(drop));
+    ASSERT_EQ(stepper.blocks()[0].solved[c], 1.0);
+    // nothing pushes it: p = p0 all around, whatever the mass row of its one cell would have asked for
+    EXPECT_NEAR(stepper.state()[0].u[1][c], -k_g * dt * step, 0.02 * k_g * dt * step);
+  }
+}
+
 /// Standing wave of length 1 over depth .5 from its crest: its first mode after some steps, over the start.
 struct Wave {
   Stepper<2> stepper;
