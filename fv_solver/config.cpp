@@ -248,6 +248,11 @@ void SpongeConfig::bind(Binder& b) {
   b.key("u", u).unit("m/s").doc("Velocity along x to damp towards; left out: 0.");
   b.key("v", v).unit("m/s").doc("Velocity along y; 3-D only.");
   b.key("w", w).unit("m/s").doc("Velocity along z.");
+  b.key("surface", surface)
+      .doc(
+          "Free surface to damp towards: a formula < 0 in water, 0 on it; left out: the surface itself is "
+          "not "
+          "damped.");
 }
 
 /// Values that the preset gives where the file says nothing; measured in tests/validation/fv_choices.
@@ -302,8 +307,11 @@ void FvConfig::bind(Binder& b) {
   });
   b.section("dual_time", "The inner iteration of a step.", [&] {
     using Method = DualTime::Method;
-    b.choice("method", dual_time.method, {{"multigrid", Method::multigrid}, {"plain", Method::plain}})
-        .doc("multigrid: linear multigrid correction; plain: explicit pseudo-time steps, slow.");
+    b.choice("method", dual_time.method,
+             {{"multigrid", Method::multigrid}, {"plain", Method::plain}, {"prescribed", Method::prescribed}})
+        .doc(
+            "multigrid: linear multigrid correction; plain: explicit pseudo-time steps, slow; prescribed: no "
+            "equations, u is the scene's initial formulas at every time and only the free surface moves.");
     b.key("drop", dual_time.drop)
         .exclusive_min(0)
         .exclusive_max(1)
@@ -368,15 +376,19 @@ void FvConfig::bind(Binder& b) {
     item.key("name", g.name).required().doc("Column prefix.");
     item.choice("kind", g.kind,
                 {{"point", GaugeConfig::Kind::point},
+                 {"elevation", GaugeConfig::Kind::elevation},
                  {"force", GaugeConfig::Kind::force},
                  {"y_plus", GaugeConfig::Kind::y_plus}})
         .doc(
-            "point: p, u, v, w at a place; force: force and moment on a wall, in all, without the "
+            "point: p, u, v, w at a place; elevation: height of the free surface, against gravity, on the "
+            "line "
+            "through a place (nan where there is none); force: force and moment on a wall, in all, without "
+            "the "
             "hydrostatic "
             "part (dynamic), of pressure and of friction; y_plus: largest and mean distance of a wall's "
             "first "
             "centres in wall units.");
-    item.key("at", g.at).unit("m").doc("Place; point only.");
+    item.key("at", g.at).unit("m").doc("Place; point and elevation.");
     item.key("wall", g.wall).doc("Name of the wall; force and y_plus.");
     item.key("moment_about", g.moment_about).unit("m").doc("Centre of the moments; force only.");
   });
@@ -395,8 +407,8 @@ void FvConfig::bind(Binder& b) {
   for (const auto& s : sponges)
     b.check(s.from != s.to, "sponges", "from and to of a sponge are the same place.");
   for (const auto& g : gauges)
-    b.check(g.kind == GaugeConfig::Kind::point || !g.wall.empty(), "gauges",
-            "a force or y_plus gauge needs a wall: its name.");
+    b.check(g.kind == GaugeConfig::Kind::point || g.kind == GaugeConfig::Kind::elevation || !g.wall.empty(),
+            "gauges", "a force or y_plus gauge needs a wall: its name.");
   b.check(
       level_set.extension_layers < level_set.layers, "level_set.extension_layers",
       "not less than level_set.layers: the band must be wider than the part of it that holds a velocity.");

@@ -148,14 +148,15 @@ struct SpongeConfig {
   std::array<double, 3> centre = {0, 0, 0};              // [m] radius only
   double from = 0.0, to = 0.0, rate = 0.0, power = 2.0;  // [m], [m], [1/s], [-]
   std::optional<support::Formula> u, v, w;               // [m/s]
+  std::optional<support::Formula> surface;               // < 0 in water
   void bind(support::Binder& b);
 };
 
 struct GaugeConfig {
-  enum class Kind : std::uint8_t { point, force, y_plus };
+  enum class Kind : std::uint8_t { point, elevation, force, y_plus };
   std::string name;
   Kind kind = Kind::point;
-  std::array<double, 3> at = {0, 0, 0};            // [m] point
+  std::array<double, 3> at = {0, 0, 0};            // [m] point, elevation
   std::string wall;                                // force, y_plus
   std::array<double, 3> moment_about = {0, 0, 0};  // [m] force
 };
@@ -180,7 +181,7 @@ struct FvConfig {
   } time;
 
   struct DualTime {
-    enum class Method : std::uint8_t { multigrid, plain };
+    enum class Method : std::uint8_t { multigrid, plain, prescribed };
     Method method = Method::multigrid;
     double drop = 1e-3;
     std::optional<double> floor;  // [m/s]

@@ -5,6 +5,7 @@
 #include "boundary/ghosts.hpp"
 #include "checks.hpp"
 #include "dual_time/plain.hpp"
+#include "dual_time/prescribed.hpp"
 #include "grid/box.hpp"
 #include "grid/find_joins.hpp"
 #include "grid/grid_file.hpp"
@@ -32,6 +33,37 @@ Fluid<D> fluid_of(const support::Scene& scene) {
   return fluid;
 }
 
+Prescribed prescribed(const support::Formula& formula) {
+  return [f = formula](const std::array<double, 3>& x, double t) { return f(x[0], x[1], x[2], t); };
+}
+
+/// The scene's initial formulas, at any time.
+template <int D>
+FlowFunction<D> initial_flow(const support::Scene& scene) {
+  return [initial = scene.initial](const std::array<double, D>& at, double t) {
+    const coupler::Vec3 x = vector_in_space<D>(at);
+    PointState<D> s;
+    s.p = initial.p(x[0], x[1], x[2], t);
+    const coupler::Vec3 u = {initial.u(x[0], x[1], x[2], t), initial.v(x[0], x[1], x[2], t),
+                             initial.w(x[0], x[1], x[2], t)};
+    for (std::size_t k = 0; k < D; ++k) s.u[k] = u[axis_in_space<D>(k)];
+    return s;
+  };
+}
+
+template <int D>
+std::unique_ptr<StepSolver<D>> step_solver_of(const FvConfig& config, const support::Scene& scene) {
+  using Method = FvConfig::DualTime::Method;
+  if (config.dual_time.method == Method::plain)
+    return std::make_unique<PlainDualTime<D>>(config.dual_time.pseudo_cfl);
+  if (config.dual_time.method == Method::prescribed)
+    return std::make_unique<PrescribedFlow<D>>(
+        [flow = initial_flow<D>(scene)](const std::array<double, D>& x, double t) { return flow(x, t).u; });
+  if (config.dual_time.precision == FvConfig::DualTime::Precision::single)
+    return std::make_unique<MultigridSolver<D, float>>();
+  return std::make_unique<MultigridSolver<D, double>>();
+}
+
 template <int D>
 std::vector<Sponge<D>> sponges_of(const FvConfig& config, const support::Scene& scene) {
   if (scene.coupling.kind == support::Scene::CouplingKind::forced)
@@ -40,14 +72,12 @@ std::vector<Sponge<D>> sponges_of(const FvConfig& config, const support::Scene& 
         "far_field");
   std::vector<Sponge<D>> sponges;
   for (const SpongeConfig& s : config.sponges) {
-    Sponge<D> sponge{s.axis, s.centre, s.from, s.to, s.rate, s.power, {}};
+    Sponge<D> sponge{s.axis, s.centre, s.from, s.to, s.rate, s.power, {}, {}};
     if (D == 2) sponge.centre[1] = 0.0;
     const std::array<const std::optional<support::Formula>*, 3> formulas = {&s.u, &s.v, &s.w};
     for (std::size_t k = 0; k < D; ++k)
-      if (const auto& formula = *formulas[axis_in_space<D>(k)])
-        sponge.velocity[k] = [f = *formula](const std::array<double, 3>& x, double t) {
-          return f(x[0], x[1], x[2], t);
-        };
+      if (const auto& formula = *formulas[axis_in_space<D>(k)]) sponge.velocity[k] = prescribed(*formula);
+    if (s.surface) sponge.surface = prescribed(*s.surface);
     sponges.push_back(std::move(sponge));
   }
   return sponges;
@@ -187,31 +217,11 @@ Stepper<D> make_stepper(const FvConfig& config, const support::Scene& scene, std
   tolerance.drop = config.dual_time.drop;
   tolerance.floor = config.dual_time.floor.value_or(1e-9 * velocity);
   tolerance.max_cycles = config.dual_time.max_cycles;
-  std::unique_ptr<StepSolver<D>> solver;
-  if (config.dual_time.method == FvConfig::DualTime::Method::plain)
-    solver = std::make_unique<PlainDualTime<D>>(config.dual_time.pseudo_cfl);
-  else
-    solver = config.dual_time.precision == FvConfig::DualTime::Precision::single
-                 ? std::unique_ptr<StepSolver<D>>(std::make_unique<MultigridSolver<D, float>>())
-                 : std::make_unique<MultigridSolver<D, double>>();
-
-  Stepper<D> stepper(std::move(own.blocks), std::move(own.exchange), equations, std::move(solver), tolerance);
-  const auto initial = scene.initial;
-  stepper.initialise(
-      [&initial](const std::array<double, D>& at, double t) {
-        const coupler::Vec3 x = vector_in_space<D>(at);
-        PointState<D> s;
-        s.p = initial.p(x[0], x[1], x[2], t);
-        const coupler::Vec3 u = {initial.u(x[0], x[1], x[2], t), initial.v(x[0], x[1], x[2], t),
-                                 initial.w(x[0], x[1], x[2], t)};
-        for (std::size_t k = 0; k < D; ++k) s.u[k] = u[axis_in_space<D>(k)];
-        return s;
-      },
-      0.0);
+  Stepper<D> stepper(std::move(own.blocks), std::move(own.exchange), equations,
+                     step_solver_of<D>(config, scene), tolerance);
+  stepper.initialise(initial_flow<D>(scene), 0.0);
   if (scene.has_free_surface() && !scene.has_region()) {
-    const Prescribed surface = [f = *scene.initial.surface](const std::array<double, 3>& x, double t) {
-      return f(x[0], x[1], x[2], t);
-    };
+    const Prescribed surface = prescribed(*scene.initial.surface);
     if (ranks.any(meets_air<D>(stepper.blocks(), surface))) stepper.set_surface(surface, config.level_set);
   }
   const auto& source = config.source;

@@ -91,6 +91,22 @@ void fill_level_set(const Block<D>& block, const ConnectedGhosts& connected, con
 }  // namespace
 
 template <int D>
+double distance_to(const Prescribed& surface, const std::array<double, 3>& x, double t, double size) {
+  constexpr double k_part = 0.05;
+  const double step = k_part * size;
+  double slope2 = 0.0;
+  for (std::size_t k = 0; k < D; ++k) {
+    coupler::Vec3 up = x, low = x;
+    up[axis_in_space<D>(k)] += step;
+    low[axis_in_space<D>(k)] -= step;
+    const double slope = (surface(up, t) - surface(low, t)) / (2.0 * step);
+    slope2 += slope * slope;
+  }
+  const double value = surface(x, t);
+  return slope2 > 0.0 ? value / std::sqrt(slope2) : value;
+}
+
+template <int D>
 void evaluate_surface_windows(Block<D>& block, double t) {
   for (Window<D>& w : block.windows) {
     for (auto& given : w.given_phi) given.clear();
@@ -99,20 +115,10 @@ void evaluate_surface_windows(Block<D>& block, double t) {
     grown_box<D>(block, w, lower, upper);
     for_each_index<D>(lower, upper, [&](const std::array<int, D>& index) {
       const Line<D> line(block, w, block.extent.at(index));
-      constexpr double k_part = 0.05;  // of the cell, over which the function is differenced
-      const double step = k_part * length(between(block, line.inner[0], line.ghost[0]));
+      const double size = length(between(block, line.inner[0], line.ghost[0]));
       for (std::size_t layer = 0; layer < 2; ++layer) {
         const coupler::Vec3 x = centre_in_space<D>(block, static_cast<std::ptrdiff_t>(line.ghost[layer]));
-        double slope2 = 0.0;
-        for (std::size_t k = 0; k < D; ++k) {
-          coupler::Vec3 up = x, low = x;
-          up[axis_in_space<D>(k)] += step;
-          low[axis_in_space<D>(k)] -= step;
-          const double slope = (w.surface(up, t) - w.surface(low, t)) / (2.0 * step);
-          slope2 += slope * slope;
-        }
-        const double value = w.surface(x, t);
-        w.given_phi[layer].push_back(slope2 > 0.0 ? value / std::sqrt(slope2) : value);
+        w.given_phi[layer].push_back(distance_to<D>(w.surface, x, t, size));
       }
     });
   }
@@ -135,6 +141,8 @@ void fill_scalar_ghosts(const Block<D>& block, const ConnectedGhosts& connected,
     }
 }
 
+template double distance_to<2>(const Prescribed&, const std::array<double, 3>&, double, double);
+template double distance_to<3>(const Prescribed&, const std::array<double, 3>&, double, double);
 template void evaluate_surface_windows(Block<2>&, double);
 template void evaluate_surface_windows(Block<3>&, double);
 template void fill_scalar_ghosts(const Block<2>&, const ConnectedGhosts&, ScalarGhosts, Field&);

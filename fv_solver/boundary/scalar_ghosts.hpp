@@ -12,9 +12,13 @@ namespace littoral::fv {
 ///   cell_data  only what stands for a cell: periodic faces and joins; all other ghosts are left alone
 enum class ScalarGhosts : std::uint8_t { level_set, cell_data };
 
-/// Evaluates the windows' given phi at time t: F/|grad F| of the function given, so that any function with
-/// the right zero level serves. Call once a step, in scenes with a surface. Windows without a function
-/// extrapolate.
+/// F/|grad F| of a function with the right zero level: its distance near there [m]. size: of a cell, of which
+/// a part is differenced over [m]. pure
+template <int D>
+double distance_to(const Prescribed& surface, const std::array<double, 3>& x, double t, double size);
+
+/// Evaluates the windows' given phi at time t, from any function with the right zero level. Call once a step,
+/// in scenes with a surface. Windows without a function extrapolate.
 template <int D>
 void evaluate_surface_windows(Block<D>& block, double t);
 

@@ -20,6 +20,7 @@ struct StepProblem {
   const std::vector<History<D>>& history;
   const std::vector<Forcing<D>>& forcing;
   FreeSurface<D>* surface = nullptr;  // null: none
+  double t = 0.0;                     // [s] of the new level
 
   /// Lets the free surface follow the flow, refreshes the ghosts of q, then evaluates all residuals.
   /// comm collective, both

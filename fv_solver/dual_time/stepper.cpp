@@ -121,6 +121,30 @@ void Stepper<D>::aim_sponges(double t) {
   }
 }
 
+/// phi* at time t in the band; where zones overlap, the mean weighted with their strengths.
+template <int D>
+void Stepper<D>::aim_surface_sponges(double t) {
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const Block<D>& block = blocks_[b];
+    SurfaceForcing& forcing = surface_->level_set().forcing[b];
+    forcing.rate.assign(block.extent.size, 0.0);
+    forcing.target.resize(block.extent.size);
+    for (const std::ptrdiff_t c : surface_->level_set().band.cells(b)) {
+      const auto i = static_cast<std::size_t>(c);
+      const coupler::Vec3 x = centre_in_space<D>(block, c);
+      double rate = 0.0, sum = 0.0;
+      for (const Sponge<D>& sponge : sponges_) {
+        const double strength = sponge.surface ? sponge.strength(x) : 0.0;
+        if (strength == 0.0) continue;
+        rate += strength;
+        sum += strength * distance_to<D>(sponge.surface, x, t, std::pow(block.volume[i], 1.0 / D));
+      }
+      forcing.rate[i] = rate;
+      if (rate > 0.0) forcing.target[i] = sum / rate;
+    }
+  }
+}
+
 template <int D>
 BackwardDifference Stepper<D>::scheme(double dt) const {
   return known_ > 1 ? BackwardDifference::second_order(dt, dt_[0]) : BackwardDifference::first_order(dt);
@@ -176,6 +200,7 @@ StepReport Stepper<D>::advance(double dt, const std::vector<Imposed<D>>& imposed
   }
   if (surface_) surface_->begin(blocks_, exchange_, s, w);
   if (!sponges_.empty()) aim_sponges(t);
+  if (surface_ && damps_surface()) aim_surface_sponges(t);
   level_[3] = std::move(level_[2]);
   level_[2] = std::move(level_[1]);
   level_[1] = std::move(level_[0]);
@@ -187,7 +212,7 @@ StepReport Stepper<D>::advance(double dt, const std::vector<Imposed<D>>& imposed
   time_ = t;
   ++steps_;
 
-  const StepProblem<D> problem{blocks_, exchange_, equations_, s, history_, forcing_, surface_.get()};
+  const StepProblem<D> problem{blocks_, exchange_, equations_, s, history_, forcing_, surface_.get(), t};
   StepReport report;
   try {
     report = inner_->solve(problem, tolerance_, level_[0]);

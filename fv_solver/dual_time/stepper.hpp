@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <memory>
@@ -110,6 +111,10 @@ class Stepper {
   BackwardDifference scheme(double dt) const;
   void set_history(const BackwardDifference& scheme, double t);
   void aim_sponges(double t);
+  void aim_surface_sponges(double t);
+  bool damps_surface() const {
+    return std::any_of(sponges_.begin(), sponges_.end(), [](const Sponge<D>& s) { return bool(s.surface); });
+  }
   void check(const std::string& advice) const;  // comm collective
   void check_own(const std::string& advice) const;
 

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "grid/loops.hpp"
 #include "grid/space.hpp"
+#include "level_set/taylor.hpp"
 #include "physics/velocity_gradient.hpp"
 
 namespace littoral::fv {
@@ -26,11 +28,35 @@ void add_derived(const Block<D>& block, const State<D>& q, const DerivedFields& 
   if (derived.q_criterion) out.cell_fields.push_back(std::move(q_field));
 }
 
+template <int D>
+void add_surface(const Block<D>& block, const Field& phi, const std::array<double, D>& up,
+                 support::FieldSeries::Block& out) {
+  support::OutputField level{"level_set", 1, {}}, elevation{"elevation", 1, {}};
+  for_each_index<D>({}, block.extent.n, [&](const std::array<int, D>& index) {
+    const std::ptrdiff_t c = block.extent.at(index);
+    const auto i = static_cast<std::size_t>(c);
+    level.values.push_back(phi[i]);
+    double height = std::numeric_limits<double>::quiet_NaN();
+    constexpr double k_cells = 2.0;
+    if (block.status[i] != CellStatus::blanked &&
+        std::abs(phi[i]) < k_cells * std::pow(block.volume[i], 1.0 / D)) {
+      const SpaceVector<D> g = taylor<D>(block, phi, c).gradient;
+      const double slope2 = dot(g, g);
+      height = 0.0;
+      for (std::size_t k = 0; k < D; ++k) height += (block.centre[k][i] - phi[i] * g[k] / slope2) * up[k];
+    }
+    elevation.values.push_back(height);
+  });
+  out.cell_fields.push_back(std::move(level));
+  out.cell_fields.push_back(std::move(elevation));
+}
+
 }  // namespace
 
 template <int D>
 support::FieldSeries::Block field_block(const Block<D>& block, const State<D>& q,
-                                        const DerivedFields& derived, double width) {
+                                        const DerivedFields& derived, double width, const Field* phi,
+                                        const std::array<double, D>& up) {
   support::FieldSeries::Block out;
   out.name = block.name;
   support::OutputField velocity{"velocity", 3, {}}, pressure{"pressure", 1, {}},
@@ -46,6 +72,7 @@ support::FieldSeries::Block field_block(const Block<D>& block, const State<D>& q
   });
   out.cell_fields = {std::move(velocity), std::move(pressure), std::move(excess), std::move(status)};
   add_derived<D>(block, q, derived, out);
+  if (phi != nullptr) add_surface<D>(block, *phi, up, out);
 
   const double half = 0.5 * width;
   if constexpr (D == 2) {
@@ -108,7 +135,9 @@ std::vector<FieldBlock> whole_field_blocks(const Stepper<D>& stepper, const Deri
   std::vector<FieldBlock> own;
   for (std::size_t i = 0; i < mine.size(); ++i)
     own.push_back(field_block<D>(stepper.blocks()[i], stepper.state()[i], derived,
-                                 std::sqrt(layout.whole[layout.part[mine[i]].whole].mean_volume)));
+                                 std::sqrt(layout.whole[layout.part[mine[i]].whole].mean_volume),
+                                 stepper.surface() == nullptr ? nullptr : &stepper.surface()->phi()[i],
+                                 against_gravity(stepper.equations().fluid)));
   if (!ranks.several()) return own;
   std::vector<std::vector<double>> out(static_cast<std::size_t>(ranks.size()));
   for (const FieldBlock& block : own) {
@@ -144,8 +173,10 @@ std::vector<FieldBlock> whole_field_blocks(const Stepper<D>& stepper, const Deri
   return wholes;
 }
 
-template FieldBlock field_block<2>(const Block<2>&, const State<2>&, const DerivedFields&, double);
-template FieldBlock field_block<3>(const Block<3>&, const State<3>&, const DerivedFields&, double);
+template FieldBlock field_block<2>(const Block<2>&, const State<2>&, const DerivedFields&, double,
+                                   const Field*, const std::array<double, 2>&);
+template FieldBlock field_block<3>(const Block<3>&, const State<3>&, const DerivedFields&, double,
+                                   const Field*, const std::array<double, 3>&);
 template std::vector<FieldBlock> whole_field_blocks(const Stepper<2>&, const DerivedFields&);
 template std::vector<FieldBlock> whole_field_blocks(const Stepper<3>&, const DerivedFields&);
 

@@ -1,10 +1,12 @@
 #include "io/gauges.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <sstream>
 
 #include "grid/donor_patch.hpp"
+#include "grid/space.hpp"
 #include "littoral/error.hpp"
 #include "physics/wall_loads.hpp"
 
@@ -33,6 +35,24 @@ bool active(std::size_t a) {
   return D == 3 || a != 1;
 }
 
+template <int D>
+ElevationLine<D> elevation_line(const GaugeConfig& gauge, const Stepper<D>& stepper) {
+  if (stepper.surface() == nullptr)
+    throw ConfigError(
+        "gauge '" + gauge.name +
+        "' asks for an elevation, but this grid has no free surface: the scene's initial.surface "
+        "is missing, or leaves no cell in the air");
+  coupler::Vec3 at = gauge.at;
+  if (D == 2) at[1] = 0.0;
+  const coupler::Vec3 up = vector_in_space<D>(against_gravity(stepper.equations().fluid));
+  ElevationLine<D> line(stepper.blocks(), at, up);
+  if (stepper.exchange().ranks().any(line.found())) return line;
+  char text[96];
+  std::snprintf(text, sizeof text, "(%g, %g, %g) m", at[0], at[1], at[2]);
+  throw ConfigError("gauge '" + gauge.name + "': the line against gravity through " + text +
+                    " meets no block");
+}
+
 }  // namespace
 
 template <int D>
@@ -50,6 +70,10 @@ Gauges<D>::Gauges(const std::vector<GaugeConfig>& gauges, const Stepper<D>& step
   std::unique_ptr<coupler::DonorSearch> search;
   for (std::size_t g = 0; g < gauges_.size(); ++g) {
     const GaugeConfig& gauge = gauges_[g];
+    if (gauge.kind == GaugeConfig::Kind::elevation) {
+      lines_.push_back(elevation_line(gauge, stepper));
+      continue;
+    }
     if (gauge.kind != GaugeConfig::Kind::point) {
       if (std::find(names.begin(), names.end(), gauge.wall) != names.end()) continue;
       std::string known;
@@ -87,6 +111,8 @@ std::vector<std::string> Gauges<D>::columns() const {
       names.push_back(gauge.name + ".p");
       for (std::size_t a = 0; a < 3; ++a)
         if (active<D>(a)) names.push_back(gauge.name + "." + k_velocities[a]);
+    } else if (gauge.kind == GaugeConfig::Kind::elevation) {
+      names.push_back(gauge.name + ".elevation");
     } else if (gauge.kind == GaugeConfig::Kind::y_plus) {
       for (const char* part : {".y_plus_max", ".y_plus_mean"}) names.push_back(gauge.name + part);
     } else {
@@ -105,6 +131,7 @@ template <int D>
 std::vector<double> Gauges<D>::values(const Stepper<D>& stepper) const {
   const Ranks& ranks = stepper.exchange().ranks();
   std::vector<double> values;
+  std::size_t line = 0;
   for (std::size_t g = 0; g < gauges_.size(); ++g) {
     const GaugeConfig& gauge = gauges_[g];
     if (gauge.kind == GaugeConfig::Kind::point) {
@@ -119,6 +146,11 @@ std::vector<double> Gauges<D>::values(const Stepper<D>& stepper) const {
       ranks.sum(u);
       values.push_back(p);
       values.insert(values.end(), u.begin(), u.end());
+    } else if (gauge.kind == GaugeConfig::Kind::elevation) {
+      const double here = lines_[line++].height(stepper.surface()->phi());
+      constexpr double k_none = -std::numeric_limits<double>::infinity();
+      const double highest = ranks.largest(std::isnan(here) ? k_none : here);
+      values.push_back(highest == k_none ? std::numeric_limits<double>::quiet_NaN() : highest);
     } else if (gauge.kind == GaugeConfig::Kind::y_plus) {
       const WallUnits units =
           wall_units<D>(stepper.blocks(), stepper.equations(), stepper.state(), gauge.wall, ranks);

@@ -6,6 +6,7 @@
 
 #include "config.hpp"
 #include "dual_time/stepper.hpp"
+#include "level_set/elevation.hpp"
 #include "littoral/coupler/donor_search.hpp"
 
 namespace littoral::fv {
@@ -15,7 +16,8 @@ namespace littoral::fv {
 template <int D>
 class Gauges {
  public:
-  /// throws ConfigError: a point outside the grid or in blanked cells, a wall nobody has
+  /// throws ConfigError: a point outside the grid or in blanked cells, a wall nobody has, an elevation
+  /// where there is no free surface
   Gauges(const std::vector<GaugeConfig>& gauges, const Stepper<D>& stepper);
   std::vector<std::string> columns() const;
   std::vector<double> values(const Stepper<D>& stepper) const;
@@ -27,7 +29,8 @@ class Gauges {
     std::vector<double> weight;
   };
   std::vector<GaugeConfig> gauges_;
-  std::vector<Place> places_;  // one a gauge; empty for forces, and where another rank reads it
+  std::vector<Place> places_;            // one a gauge; empty for forces, and where another rank reads it
+  std::vector<ElevationLine<D>> lines_;  // of the elevation gauges, in their order; their parts on this rank
 };
 
 }  // namespace littoral::fv

@@ -33,6 +33,18 @@ struct Fluid {
   }
 };
 
+/// Unit vector against gravity; where there is none, along the last axis.
+template <int D>
+std::array<double, D> against_gravity(const Fluid<D>& fluid) {
+  double g = 0.0;
+  for (const double component : fluid.gravity) g += component * component;
+  g = std::sqrt(g);
+  std::array<double, D> up{};
+  up[D - 1] = 1.0;
+  for (std::size_t k = 0; k < D && g > 0.0; ++k) up[k] = -fluid.gravity[k] / g;
+  return up;
+}
+
 template <int D>
 void set_reference_pressure(Block<D>& block, const Fluid<D>& fluid) {
   block.reference_pressure.resize(block.extent.size);

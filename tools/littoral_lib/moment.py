@@ -10,6 +10,7 @@ from .errors import UserError
 VELOCITY = ("velocity", "u")
 PRESSURE = ("pressure", "p")
 KIND = ("status", "kind", "state", "cell_status")
+LEVEL_SET = "level_set"  # < 0 in water
 COMPUTED = 0  # of a cell's status: solved for, neither blanked nor imposed
 BLANKED = 1
 
@@ -27,11 +28,12 @@ class Part:
         self.u = first(VELOCITY)
         self.p = first(PRESSURE)
         self.status = first(KIND)
+        self.phi = first((LEVEL_SET,))
         if self.u is not None and self.u.ndim == 1:
             self.u = None
 
     def pick(self, mask):
-        for name in ("x", "u", "p", "status"):
+        for name in ("x", "u", "p", "status", "phi"):
             values = getattr(self, name)
             if values is not None:
                 setattr(self, name, values[mask])
@@ -41,9 +43,13 @@ class Part:
     def speed(self):
         return np.linalg.norm(self.u, axis=1)
 
+    def water(self):
+        """Without the cells that a free surface leaves in the air, whose values mean nothing."""
+        return self if self.phi is None else self.pick(self.phi < 0)
+
 
     def sheets(self):
-        """The blocks' middle sheets along y: (x, z of the nodes, speed of the cells, blanked ones masked)."""
+        """The blocks' middle sheets along y: (x, z of the nodes, speed of the cells, blanked ones and air masked)."""
         for piece in self.snapshot.pieces:
             if not piece.structured:
                 continue
@@ -56,7 +62,24 @@ class Part:
             for status in (piece.field(n) for n in KIND if n in piece.fields):
                 blanked = status.reshape(u.shape[:3])[:, min(j, u.shape[1] - 1)] == BLANKED
                 speed = np.ma.masked_where(blanked, speed)
+            if LEVEL_SET in piece.fields:
+                phi = piece.field(LEVEL_SET).reshape(u.shape[:3])[:, min(j, u.shape[1] - 1)]
+                speed = np.ma.masked_where(phi > 0, speed)
             yield nodes[:, j, :, 0], nodes[:, j, :, 2], speed
+
+    def surfaces(self):
+        """Of each block that has a level set: (x, z of the cells, phi) on its middle sheet; blanked cells masked."""
+        for piece in self.snapshot.pieces:
+            if not piece.structured or LEVEL_SET not in piece.fields:
+                continue
+            nk, nj, ni = piece.nodes
+            shape = (nk - 1, max(nj - 1, 1), ni - 1)
+            j = min((nj - 1) // 2, shape[1] - 1)
+            centres = piece.centres().reshape(*shape, 3)[:, j]
+            phi = np.ma.array(piece.field(LEVEL_SET).reshape(shape)[:, j])
+            for status in (piece.field(n) for n in KIND if n in piece.fields):
+                phi = np.ma.masked_where(status.reshape(shape)[:, j] == BLANKED, phi)
+            yield centres[..., 0], centres[..., 2], phi
 
 
 class Moments:
@@ -83,4 +106,4 @@ class Moments:
         """Time of the output with the fastest water, the first one left out where there are more."""
         series = next(iter(self.series.values()))
         later = series[1:] or series
-        return max(later, key=lambda s: float(np.square(Part(s).u).sum(axis=1).mean())).time
+        return max(later, key=lambda s: float(np.square(Part(s).water().u).sum(axis=1).mean())).time

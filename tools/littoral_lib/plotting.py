@@ -99,10 +99,13 @@ class Picture:
 
     def field(self, axes, time, figure):
         parts = self.moments.at(time)
-        top = max(float(part.speed.max()) for part in parts.values()) or 1.0
+        top = max(float(part.speed[part.phi < 0].max() if part.phi is not None else part.speed.max())
+                  for part in parts.values()) or 1.0
         drawn = None
         for x, z, speed in parts["fv"].sheets() if "fv" in parts else ():
             drawn = axes.pcolormesh(x, z, speed, cmap="viridis", vmin=0, vmax=top, edgecolors="white", linewidth=0.1)
+        for x, z, phi in parts["fv"].surfaces() if "fv" in parts else ():
+            axes.contour(x, z, phi, levels=[0.0], colors="#c1272d", linewidths=1.2)
         if "sph" in parts:
             shown = middle(parts["sph"])
             size = dot_size(shown.x, axes)
@@ -128,6 +131,10 @@ class Picture:
             near = width <= (width.min() + 0.01 * dx if program == "fv" else dx)
             if program == "fv" and shown.status is not None:
                 near &= shown.status != BLANKED
+            if shown.phi is not None:
+                near &= shown.phi < 0
+            if not near.any():
+                continue
             order = np.argsort(shown.x[near, 2])
             axes.plot(quantity(shown)[near][order], shown.x[near, 2][order], marker="s" if program == "fv" else "o",
                       ls="-" if program == "fv" else "", ms=3.5 if program == "fv" else 2.5, lw=0.8,

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "level_set/elevation.hpp"
 #include "level_set_march.hpp"
 #include "overset/assembly.hpp"
 #include "split_grids.hpp"
@@ -312,6 +313,30 @@ TEST(LevelSetTransportTest, ForcedPhiReachesItsTarget) {  // (23)
   const auto rest = [](const SpaceVector<2>&, double) { return SpaceVector<2>{}; };
   for (int i = 0; i < 10; ++i) march.step(0.05, rest);
   EXPECT_LT(march.error([](const SpaceVector<2>& x) { return x[1] - 0.53; }, 4), 1e-5);
+}
+
+TYPED_TEST(LevelSetTest, ElevationOfATiltedPlaneAndOfTheUpperOfTwoSurfaces) {
+  constexpr int D = TypeParam::value;
+  std::array<std::vector<int>, D> cuts;
+  cuts.fill({6, 5});
+  const auto grid = split_grid<D>(
+      cuts, {}, [](const std::array<double, D>& xi) { return xi; },
+      [](int, int) { return of<D>(Condition::wall); }, 3);
+  const auto plane = [](const SpaceVector<D>& x) { return 0.6 * (x[0] - 0.5) + 0.8 * (x[D - 1] - 0.47); };
+  const March<D> tilted(grid.parts, plane);
+  const coupler::Vec3 up = {0.0, 0.0, 1.0};
+  for (const double x : {0.07, 0.31, 0.5, 0.82})
+    EXPECT_NEAR(ElevationLine<D>(tilted.blocks, {x, 0.4, 9.0}, up).height(tilted.surface.phi),
+                0.47 - 0.75 * (x - 0.5), 1e-12);
+  // a layer of air with water over it, and air again
+  const March<D> layers(grid.parts, [](const SpaceVector<D>& x) {
+    const double z = x[D - 1];
+    return std::max(z - 0.83, std::min(z - 0.22, 0.52 - z));
+  });
+  EXPECT_NEAR(ElevationLine<D>(layers.blocks, {0.4, 0.4, 0.0}, up).height(layers.surface.phi), 0.83, 1e-9);
+  const March<D> air(grid.parts, [](const SpaceVector<D>& x) { return x[0] + 9.0; });
+  EXPECT_TRUE(std::isnan(ElevationLine<D>(air.blocks, {0.4, 0.4, 0.0}, up).height(air.surface.phi)));
+  EXPECT_FALSE(ElevationLine<D>(air.blocks, {7.0, 0.4, 0.0}, up).found());
 }
 
 /// A surface through a turned, finer patch: distance and motion across the overlap.
