@@ -8,7 +8,8 @@
 namespace littoral::fv {
 namespace {
 
-constexpr double k_beyond = 127.0;  // mark of cells that no pass has reached
+constexpr double k_poor = 0.5;      // mark of water whose own neighbours give no full gradient
+constexpr double k_beyond = 127.0;  // of cells that no pass has reached
 
 /// body(neighbour) for the 3^D - 1 cells around c that are cells of the grid, or ghosts that stand for one.
 template <int D, class Body>
@@ -32,9 +33,10 @@ SpaceVector<D> between(const Block<D>& block, std::ptrdiff_t from, std::ptrdiff_
   return r;
 }
 
-/// Inverse of a symmetric matrix of least squares; directions in which there is no neighbour get no gradient.
+/// Inverse of a symmetric matrix of least squares. degenerate: there are directions in which no neighbour
+/// lies; they get no gradient
 template <int D>
-SpaceMatrix<D> inverse_of_squares(SpaceMatrix<D> m) {
+SpaceMatrix<D> inverse_of_squares(SpaceMatrix<D> m, bool& degenerate) {
   double trace = 0.0;
   for (std::size_t k = 0; k < D; ++k) trace += m[k][k];
   double det;
@@ -45,9 +47,32 @@ SpaceMatrix<D> inverse_of_squares(SpaceMatrix<D> m) {
           m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
           m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
   constexpr double k_degenerate = 1e-5, k_ridge = 1e-3;  // of the mean eigenvalue's power D; of the trace
-  if (det < k_degenerate * std::pow(trace / D, D))
+  degenerate = det < k_degenerate * std::pow(trace / D, D);
+  if (degenerate)
     for (std::size_t k = 0; k < D; ++k) m[k][k] += k_ridge * trace;
   return inverse<D>(m);
+}
+
+/// At the tip of a wedge or in a film a cell's water neighbours may lie on one line: it takes the mean
+/// gradient of those that know better, if there are any.
+template <int D>
+void borrow_gradients(const std::vector<Block<D>>& blocks, const Band<D>& band,
+                      const std::vector<Field>& reached,
+                      std::vector<std::array<VectorField<D>, D>>& gradient) {
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    for (const std::ptrdiff_t c : band.cells(b)) {
+      if (reached[b][static_cast<std::size_t>(c)] != k_poor) continue;
+      SpaceMatrix<D> sum{};
+      int n = 0;
+      for_each_neighbour<D>(blocks[b], band, b, c, [&](std::ptrdiff_t other) {
+        if (reached[b][static_cast<std::size_t>(other)] != 0.0) return;
+        ++n;
+        for (std::size_t k = 0; k < D; ++k)
+          for (std::size_t l = 0; l < D; ++l) sum[k][l] += gradient[b][k][l][static_cast<std::size_t>(other)];
+      });
+      for (std::size_t k = 0; k < D && n > 0; ++k)
+        for (std::size_t l = 0; l < D; ++l) gradient[b][k][l][static_cast<std::size_t>(c)] = sum[k][l] / n;
+    }
 }
 
 }  // namespace
@@ -61,11 +86,11 @@ void VelocityExtension<D>::gradients_of_water(const std::vector<Block<D>>& block
 #pragma omp parallel for schedule(static) if (cells.size() > k_cells_for_threads)
     for (std::ptrdiff_t i = 0; i < cells.size(); ++i) {
       const std::ptrdiff_t c = cells[i];
-      if (reached_[b][static_cast<std::size_t>(c)] != 0.0) continue;
+      if (reached_[b][static_cast<std::size_t>(c)] > k_poor) continue;
       SpaceMatrix<D> squares{}, sums{};  // sums[component][direction]
       for_each_neighbour<D>(block, band, b, c, [&](std::ptrdiff_t other) {
         const auto o = static_cast<std::size_t>(other);
-        if (reached_[b][o] != 0.0) return;
+        if (reached_[b][o] > k_poor) return;
         const SpaceVector<D> r = between(block, c, other);
         const double w = 1.0 / dot(r, r);
         for (std::size_t k = 0; k < D; ++k)
@@ -77,12 +102,14 @@ void VelocityExtension<D>::gradients_of_water(const std::vector<Block<D>>& block
       double trace = 0.0;
       for (std::size_t k = 0; k < D; ++k) trace += squares[k][k];
       SpaceMatrix<D> solved{};
+      bool degenerate = true;
       if (trace > 0.0) {
-        const SpaceMatrix<D> inverse = inverse_of_squares<D>(squares);
+        const SpaceMatrix<D> inverse = inverse_of_squares<D>(squares, degenerate);
         for (std::size_t k = 0; k < D; ++k) solved[k] = times(inverse, sums[k]);
       }
       for (std::size_t k = 0; k < D; ++k)
         for (std::size_t l = 0; l < D; ++l) gradient_[b][k][l][static_cast<std::size_t>(c)] = solved[k][l];
+      if (degenerate) reached_[b][static_cast<std::size_t>(c)] = k_poor;
     }
   }
 }
@@ -110,6 +137,8 @@ void VelocityExtension<D>::extend(const std::vector<Block<D>>& blocks, const Exc
     }
   }
   gradients_of_water(blocks, band, u);
+  exchange.scalars(blocks, fields, ScalarGhosts::cell_data);
+  borrow_gradients<D>(blocks, band, reached_, gradient_);
   for (int pass = 1; pass <= layers; ++pass) {
     exchange.scalars(blocks, fields, ScalarGhosts::cell_data);
     for (std::size_t b = 0; b < n; ++b) {
