@@ -118,7 +118,4 @@ class ParticleExchange {
   std::size_t n_doomed_ = 0;
 };
 
-/// throws StabilityError if the summed ledger's defect exceeds round-off of the mass it moved.
-void check_ledger(const coupler::Ledger& total, double time);
-
 }  // namespace littoral::sph

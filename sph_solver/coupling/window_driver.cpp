@@ -1,5 +1,6 @@
 #include "coupling/window_driver.hpp"
 
+#include "coupling/check_ledger.hpp"
 #include "littoral/error.hpp"
 #include "littoral/support/run_plan.hpp"
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <random>
 
+#include "coupling/check_ledger.hpp"
 #include "coupling/particle_exchange.hpp"
 #include "coupling_support.hpp"
 #include "littoral/error.hpp"

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "clouds.hpp"
+#include "neighbors/suitable_skin.hpp"
 
 namespace littoral::sph {
 namespace {
@@ -92,6 +93,27 @@ TEST(NeighborListTest, PointQueryFindsAllWithinTheRadius) {
     });
     for (std::size_t j = 0; j < particles.n_owned; ++j) EXPECT_EQ(found.count(j), near(j) ? 1u : 0u);
   }
+}
+
+TEST(NeighborListTest, SkinFitsTheSpeed) {
+  const double R = 4.0, most = 0.5;
+  EXPECT_LT(suitable_skin<2>(R, 0.0, most), 0.1);
+  EXPECT_EQ(suitable_skin<2>(R, 1.0, most), most);
+  for (const double moved : {0.002, 0.01, 0.05, 0.2}) {
+    const double skin = suitable_skin<2>(R, moved, most);
+    EXPECT_GT(0.5 * skin, moved) << "lists live for a step";
+    EXPECT_LE(suitable_skin<3>(R, moved, most), skin) << "in space a skin costs more pairs";
+  }
+}
+
+TEST(NeighborListTest, ListsJustMadeAreNotMadeAnew) {
+  auto particles = test::cloud<2>({8, 8}, 1.0, 0.3);
+  NeighborList<2> neighbors(3.0, 0.2);
+  neighbors.build(particles);
+  particles.u[0][7] = 1.0;
+  EXPECT_FALSE(neighbors.outdated(particles, 5.0)) << "they would be the same";
+  particles.x[0][3] += 0.01;
+  EXPECT_TRUE(neighbors.outdated(particles, 5.0));
 }
 
 }  // namespace
