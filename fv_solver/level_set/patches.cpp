@@ -173,13 +173,9 @@ bool own_patch(const Block<D>& block, const Band<D>& band, const Field& phi, std
     patch = patch_of<D>(p, foot, width);
     if (!check || plausible<D>(patch, gradient)) return true;
   }
-  const double slope2 = check ? dot(gradient, gradient) : 0.0;
   patch = crossing;
-  if (check && std::abs(phi[static_cast<std::size_t>(c)]) <= reach * std::sqrt(slope2))
-    for (std::size_t k = 0; k < D; ++k) {
-      patch.to_base[k] = -phi[static_cast<std::size_t>(c)] * gradient[k] / slope2;
-      patch.normal[k] = gradient[k] / std::sqrt(slope2);
-    }
+  if (check && crossed)
+    for (std::size_t k = 0; k < D; ++k) patch.normal[k] = gradient[k] / length(gradient);
   return crossed;
 }
 
