@@ -49,6 +49,7 @@ double check_run(const coupler::Job& job, const FvConfig& config, const support:
   Stepper<D> stepper = make_stepper<D>(config, scene, &notes, ranks_of(job));
   if (scene.has_region()) {
     carve<D>(stepper.blocks(), stepper.exchange(), scene);
+    stepper.seek_donors();
     check_layers_covered<D>(DonorOffer<D>(stepper.blocks(), stepper.exchange()).geometry(), scene,
                             stepper.exchange().ranks());
   }

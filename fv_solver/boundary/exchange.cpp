@@ -2,6 +2,7 @@
 
 #include "boundary/ghosts.hpp"
 #include "grid/loops.hpp"
+#include "overset/all_cells.hpp"
 
 namespace littoral::fv {
 
@@ -46,6 +47,11 @@ Exchange<D>::Exchange(const std::vector<Block<D>>& blocks, const OversetLinks<D>
   contour_ = ClosedContour<D>(blocks, all);
   contour_.keep(layout_.owners);
   overset_ = DonorLinks<D>(overset, layout_.owners);
+}
+
+template <int D>
+void Exchange<D>::seek_donors(const std::vector<Block<D>>& blocks) {
+  if (!overset_.empty()) overset_ = fv::seek_donors<D>(blocks, layout_);
 }
 
 template <int D>

@@ -50,6 +50,10 @@ class Exchange {
                     const std::vector<State<D>>& q, std::vector<Residual<D>>& r) const {
     irregular_.share_friction(blocks, fluid, q, r);
   }
+  /// Seeks the donors of the interpolated cells anew, after statuses have changed. Nothing where none are.
+  /// throws ConfigError: a cell that finds none
+  void seek_donors(const std::vector<Block<D>>& blocks);
+
   const IrregularFaces<D>& irregular() const { return irregular_; }
   /// Ghosts of each block that stand for cells.
   const std::vector<ConnectedGhosts>& connected() const { return connected_; }

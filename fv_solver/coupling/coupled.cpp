@@ -23,6 +23,7 @@ template <int D>
 void Coupled<D>::begin(Stepper<D>& stepper) {
   const Exchange<D>& exchange = stepper.exchange();
   const Carving carving = carve<D>(stepper.blocks(), exchange, scene_);
+  stepper.seek_donors();
   for (const std::string& note : carving.notes) this->tell(note);
   column_depth_ = carving.column_depth;
   offer_.emplace(stepper.blocks(), exchange);

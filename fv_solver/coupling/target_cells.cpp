@@ -90,15 +90,14 @@ std::vector<Imposed<D>> TargetCells<D>::received(const std::vector<Block<D>>& bl
       }
       if (!required) continue;  // keeps what it had
       const auto index = blocks[b].extent.index(static_cast<std::ptrdiff_t>(values[b].cell[m]));
-      std::string cell;
-      for (std::size_t d = 0; d < D; ++d) cell += (d > 0 ? "," : "") + std::to_string(index[d]);
       char text[400];
       std::snprintf(
           text, sizeof text,
-          "block '%s' cell (%s) at (%.6g, %.6g, %.6g) m takes its values from the particles, but they "
+          "block '%s' cell %s at (%.6g, %.6g, %.6g) m takes its values from the particles, but they "
           "have %s there at t = %.9g s (coverage %.3f). Coupling I needs water in all fringe cells: move "
           "the region's face deeper, or use coupling.kind: forced",
-          blocks[b].name.c_str(), cell.c_str(), targets_.x[i], targets_.y[i], targets_.z[i],
+          blocks[b].name.c_str(), cell_name<D>(blocks[b], index).c_str(), targets_.x[i], targets_.y[i],
+          targets_.z[i],
           samples.status[i] == coupler::SampleStatus::dry ? "no water" : "no or too few particles",
           samples.time, samples.coverage[i]);
       throw CouplingError(text);

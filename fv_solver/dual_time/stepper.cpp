@@ -299,18 +299,18 @@ void Stepper<D>::check_own(const std::string& advice) const {
       for (std::size_t k = 0; k < D; ++k) speed2 += q.u[k][c] * q.u[k][c];
       const double rho = equations_.fluid.rho(q.p[c]);
       if (std::isfinite(speed2) && std::isfinite(rho) && rho > 0.0) return;
-      std::string cell, place;
+      std::string place;
       for (std::size_t d = 0; d < D; ++d) {
         char number[32];
         std::snprintf(number, sizeof number, "%s%.4g", d ? ", " : "", block.centre[d][c]);
-        cell += (d ? "," : "") + std::to_string(index[d]);
         place += number;
       }
       char text[256];
       std::snprintf(
           text, sizeof text,
-          "t = %.6g s: density %.3g kg/m^3, p = %.3g Pa, |u| = %.3g m/s in block '%s' cell (%s) at (%s) m. ",
-          time_, rho, q.p[c], std::sqrt(speed2), block.name.c_str(), cell.c_str(), place.c_str());
+          "t = %.6g s: density %.3g kg/m^3, p = %.3g Pa, |u| = %.3g m/s in block '%s' cell %s at (%s) m. ",
+          time_, rho, q.p[c], std::sqrt(speed2), block.name.c_str(), cell_name<D>(block, index).c_str(),
+          place.c_str());
       throw StabilityError(std::string(text) + advice);
     });
   }

@@ -84,6 +84,8 @@ class Stepper {
   std::vector<Block<D>>& blocks() { return blocks_; }
   const std::vector<Block<D>>& blocks() const { return blocks_; }
   const Exchange<D>& exchange() const { return exchange_; }
+  /// Statuses have changed since the grid was made. comm collective, throws ConfigError
+  void seek_donors() { exchange_.seek_donors(blocks_); }
   const Equations<D>& equations() const { return equations_; }
   /// Current state, ghosts current.
   std::vector<State<D>>& state() { return level_[0]; }

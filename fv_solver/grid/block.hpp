@@ -68,6 +68,7 @@ using VectorField = std::array<Field, D>;
 template <int D>
 struct Block {
   std::string name;
+  std::array<int, D> first{};      // cell of the uncut block that is (0, ..., 0) here: for messages
   Extent<D> extent;                // of cells
   Extent<D> node_extent;           // of nodes: one more than cells in each direction
   std::array<bool, D> periodic{};  // the block closes on itself in this direction
@@ -82,6 +83,14 @@ struct Block {
   Field solved;                        // 1 where the rows are solved (computed, forced), else 0; ghosts 0
   std::vector<Window<D>> windows;      // cover every face once
 };
+
+/// "(i,j,k)" of a cell in the uncut block. pure
+template <int D>
+std::string cell_name(const Block<D>& block, const std::array<int, D>& index) {
+  std::string text;
+  for (std::size_t d = 0; d < D; ++d) text += (d > 0 ? "," : "(") + std::to_string(block.first[d] + index[d]);
+  return text + ")";
+}
 
 /// What a face is called. pure
 template <int D>

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "overset/assembly.hpp"
-#include "overset/components.hpp"
+#include "overset/all_cells.hpp"
 
 namespace littoral::fv {
 
@@ -72,75 +71,43 @@ void add_open_ghosts(const LevelGrid<D>& grid, const GhostSources<D>& sources, s
   });
 }
 
-/// Of all blocks: centres, and 1 where a cell is solved.
-template <int D>
-struct AllCells {
-  std::vector<VectorField<D>> centre;
-  std::vector<std::vector<std::uint8_t>> solved;
-
-  AllCells(const std::vector<VectorField<D>>& own, const std::vector<const LevelGrid<D>*>& grids,
-           const std::vector<BlockShape<D>>& shapes, const Owners& owners) {
-    std::vector<double> x;
-    std::vector<std::uint8_t> is;
-    for (std::size_t i = 0; i < grids.size(); ++i)
-      for_each_cell<D>(grids[i]->extent, [&](const auto&, std::ptrdiff_t c) {
-        for (const Field& component : own[i]) x.push_back(component[static_cast<std::size_t>(c)]);
-        is.push_back(grids[i]->solved(c) ? 1 : 0);
-      });
-    const std::vector<double> all_x = owners.ranks.gather(x);
-    const std::vector<std::uint8_t> all_is = owners.ranks.gather(is);
-    std::size_t at = 0;  // in the order of the ranks, of each its blocks
-    centre.resize(shapes.size());
-    solved.resize(shapes.size());
-    for (int rank = 0; rank < owners.ranks.size(); ++rank)
-      for (std::size_t b = 0; b < shapes.size(); ++b) {
-        if (owners.rank[b] != rank) continue;
-        for (auto& component : centre[b]) component.assign(shapes[b].extent.size, 0.0);
-        solved[b].assign(shapes[b].extent.size, 0);
-        for_each_cell<D>(shapes[b].extent, [&](const auto&, std::ptrdiff_t c) {
-          for (std::size_t k = 0; k < D; ++k) centre[b][k][static_cast<std::size_t>(c)] = all_x[at * D + k];
-          solved[b][static_cast<std::size_t>(c)] = all_is[at++];
-        });
-      }
-  }
-};
-
 }  // namespace
 
 template <int D>
 void link_corrections(LevelOverlap<D>& overlap, const std::vector<const LevelGrid<D>*>& grids,
                       const std::vector<BlockShape<D>>& shapes, const std::vector<JoinSide<D>>& joins,
                       const Owners& owners) {
-  std::vector<Extent<D>> extents;
-  std::vector<std::array<bool, D>> periodic;
-  for (const BlockShape<D>& shape : shapes) {
-    extents.push_back(shape.extent);
-    periodic.push_back(shape.periodic);
+  const GhostSources<D> sources = ghost_sources<D>(shapes, overlap.period, joins);
+  std::vector<const VectorField<D>*> centre;
+  std::vector<std::vector<std::uint8_t>> solved;
+  for (std::size_t i = 0; i < grids.size(); ++i) {
+    centre.push_back(&overlap.centre[i]);
+    solved.emplace_back(grids[i]->extent.size, 0);
+    for_each_cell<D>(grids[i]->extent, [&](const auto&, std::ptrdiff_t c) {
+      solved.back()[static_cast<std::size_t>(c)] = grids[i]->solved(c) ? 1 : 0;
+    });
   }
-  const GhostSources<D> sources(extents, periodic, overlap.period, joins);
-  AllCells<D> cells(overlap.centre, grids, shapes, owners);
-  std::vector<OverlapBlock<D>> blocks;
-  for (std::size_t b = 0; b < shapes.size(); ++b)
-    blocks.push_back({&extents[b], &cells.centre[b], cells.solved[b], overlap.component[b]});
+  AllCells<D> cells(centre, solved, shapes, owners);
   std::vector<CellName<D>> fringes, holes, orphans;
   const std::vector<std::size_t> mine = owners.mine();
   for (std::size_t i = 0; i < grids.size(); ++i) {
     const std::size_t b = mine[i];
-    for_each_cell<D>(extents[b], [&](const auto&, std::ptrdiff_t c) {
+    for_each_cell<D>(shapes[b].extent, [&](const auto&, std::ptrdiff_t c) {
       const CellStatus status = grids[i]->status[static_cast<std::size_t>(c)];
       if (status != CellStatus::interpolated && status != CellStatus::blanked) return;
       bool beside = false;
       for (std::size_t d = 0; d < D; ++d)
-        for (const std::ptrdiff_t step : {-extents[b].stride[d], extents[b].stride[d]}) {
+        for (const std::ptrdiff_t step : {-shapes[b].extent.stride[d], shapes[b].extent.stride[d]}) {
           const GhostSource<D>* ghost = sources.find(b, c + step);
           beside = beside ||
-                   (ghost != nullptr ? cells.solved[ghost->block][static_cast<std::size_t>(ghost->cell)] != 0
-                                     : cells.solved[b][static_cast<std::size_t>(c + step)] != 0);
+                   (ghost != nullptr ? cells.usable[ghost->block][static_cast<std::size_t>(ghost->cell)] != 0
+                                     : cells.usable[b][static_cast<std::size_t>(c + step)] != 0);
         }
       if (beside) (status == CellStatus::interpolated ? fringes : holes).push_back({b, c});
     });
     add_open_ghosts<D>(*grids[i], sources, b, cells.centre[b], fringes);
   }
+  const std::vector<OverlapBlock<D>> blocks = cells.blocks(shapes, overlap.component);
   OversetLinks<D> links = find_donors<D>(blocks, sources, fringes, true, orphans);
   // a hole beside solved cells is a region's where no other component is near: its correction stays 0
   const OversetLinks<D> further = find_donors<D>(blocks, sources, holes, false, orphans);

@@ -188,10 +188,9 @@ struct MultigridSolver<D, Real>::Levels {
       for (const std::ptrdiff_t cell : cells[b])
         for (std::size_t i = 0; i <= D; ++i)
           if (!std::isfinite(r[at++])) {
-            std::string place = "block '" + blocks[b].name + "' cell (";
-            const auto index = grids[b].extent.index(cell);
-            for (std::size_t k = 0; k < D; ++k) place += (k > 0 ? "," : "") + std::to_string(index[k]);
-            throw StabilityError(place + "): the residual is not finite after " + std::to_string(cycle) +
+            throw StabilityError("block '" + blocks[b].name + "' cell " +
+                                 cell_name<D>(blocks[b], grids[b].extent.index(cell)) +
+                                 ": the residual is not finite after " + std::to_string(cycle) +
                                  " inner cycles; try a smaller time step");
           }
   }

@@ -61,13 +61,7 @@ Gauges<D>::Gauges(const std::vector<GaugeConfig>& gauges, const Stepper<D>& step
   const auto& blocks = stepper.blocks();
   const Ranks& ranks = stepper.exchange().ranks();
   const std::vector<std::string> names = window_names<D>(blocks, ranks);
-  coupler::DonorGeometry geometry;
-  std::vector<std::size_t> cells, block_of;
-  for (std::size_t b = 0; b < blocks.size(); ++b) {
-    geometry.patches.push_back(donor_patch<D>(blocks[b], 1, cells));
-    block_of.resize(cells.size(), b);
-  }
-  std::unique_ptr<coupler::DonorSearch> search;
+  Searches searches;
   for (std::size_t g = 0; g < gauges_.size(); ++g) {
     const GaugeConfig& gauge = gauges_[g];
     if (gauge.kind == GaugeConfig::Kind::elevation) {
@@ -80,27 +74,61 @@ Gauges<D>::Gauges(const std::vector<GaugeConfig>& gauges, const Stepper<D>& step
       for (const std::string& name : names) known += (known.empty() ? "" : ", ") + name;
       throw ConfigError("gauge '" + gauge.name + "': no wall is named '" + gauge.wall + "'. Known: " + known);
     }
-    if (!search) search = std::make_unique<coupler::DonorSearch>(geometry, D);
-    coupler::Vec3 at = gauge.at;
-    if (D == 2) at[1] = 0.0;
-    std::int64_t hint = -1;
-    const coupler::Donor donor = search->find(at, hint);
-    // beside a cut, ranks find the same place: the last of them reads it
-    const double reader = ranks.largest(donor.found ? ranks.rank() : -1.0);
-    if (reader >= 0.0 && reader != ranks.rank()) continue;
-    if (!donor.found) {
+    if (searches.empty())
+      for (const Block<D>& block : blocks) {
+        coupler::DonorGeometry geometry;
+        std::vector<std::size_t> cells;
+        geometry.patches.push_back(donor_patch<D>(block, 1, cells));
+        searches.push_back(std::make_unique<coupler::DonorSearch>(geometry, D));
+      }
+    double worth = -1.0;
+    Place place = find(stepper, searches, gauge.at, worth);
+    const double best = ranks.largest(worth);
+    if (best < 0.0) {
       char text[96];
-      std::snprintf(text, sizeof text, "(%g, %g, %g) m", at[0], at[1], at[2]);
+      std::snprintf(text, sizeof text, "(%g, %g, %g) m", gauge.at[0], gauge.at[1], gauge.at[2]);
       throw ConfigError("gauge '" + gauge.name + "' at " + text + " lies in no block, or in blanked cells");
     }
+    if (worth == best) places_[g] = std::move(place);
+  }
+}
+
+template <int D>
+typename Gauges<D>::Place Gauges<D>::find(const Stepper<D>& stepper, const Searches& searches,
+                                          coupler::Vec3 at, double& worth) const {
+  constexpr double k_component = 1e6, k_whole = 1e12;  // above the numbers of blocks, and of components
+  const Layout<D>& layout = stepper.exchange().layout();
+  const std::vector<std::size_t> mine = layout.owners.mine();
+  Place best;
+  if (D == 2) at[1] = 0.0;
+  for (std::size_t b = 0; b < searches.size(); ++b) {
+    std::int64_t hint = -1;
+    const coupler::Donor donor = searches[b]->find(at, hint);
+    if (!donor.found) continue;
+    std::vector<std::size_t> cells;
+    donor_patch<D>(stepper.blocks()[b], 1, cells);
+    Place place;
+    bool whole = true;
     for (std::size_t k = 0; k < 8; ++k) {
       if (donor.weight[k] == 0.0) continue;
-      const auto i = static_cast<std::size_t>(donor.cell[k]);
-      places_[g].block.push_back(block_of[i]);
-      places_[g].cell.push_back(cells[i]);
-      places_[g].weight.push_back(donor.weight[k]);
+      const std::size_t c = cells[static_cast<std::size_t>(donor.cell[k])];
+      place.block.push_back(b);
+      place.cell.push_back(c);
+      place.weight.push_back(donor.weight[k]);
+      const Block<D>& block = stepper.blocks()[b];
+      const auto index = block.extent.index(static_cast<std::ptrdiff_t>(c));
+      for (std::size_t d = 0; d < D; ++d)
+        if (index[d] < 0 || index[d] >= block.extent.n[d])
+          whole = whole && stepper.exchange().connected()[b][c] != 0;
     }
+    const double is_worth = (whole ? k_whole : 0.0) +
+                            k_component * static_cast<double>(layout.component[mine[b]]) +
+                            static_cast<double>(mine[b]);
+    if (is_worth <= worth) continue;
+    worth = is_worth;
+    best = std::move(place);
   }
+  return best;
 }
 
 template <int D>
@@ -135,7 +163,7 @@ std::vector<double> Gauges<D>::values(const Stepper<D>& stepper) const {
   for (std::size_t g = 0; g < gauges_.size(); ++g) {
     const GaugeConfig& gauge = gauges_[g];
     if (gauge.kind == GaugeConfig::Kind::point) {
-      double p = 0.0;
+      double p = 0.0;  // on the rank that reads it
       std::array<double, D> u{};
       for (std::size_t i = 0; i < places_[g].cell.size(); ++i) {
         const State<D>& q = stepper.state()[places_[g].block[i]];

@@ -28,6 +28,11 @@ class Gauges {
     std::vector<std::size_t> block, cell;
     std::vector<double> weight;
   };
+  using Searches = std::vector<std::unique_ptr<coupler::DonorSearch>>;  // one a block
+  /// The place of a point in the blocks of this rank, and how good it is, the same on any number of ranks: at
+  /// best without ghosts that stand for nothing, then in the uppermost grid. worth -1: there is none
+  Place find(const Stepper<D>& stepper, const Searches& searches, coupler::Vec3 at, double& worth) const;
+
   std::vector<GaugeConfig> gauges_;
   std::vector<Place> places_;            // one a gauge; empty for forces, and where another rank reads it
   std::vector<ElevationLine<D>> lines_;  // of the elevation gauges, in their order; their parts on this rank

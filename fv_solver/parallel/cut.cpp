@@ -40,6 +40,7 @@ class Cutter {
     const Block<D>& from = whole_[piece.whole];
     Block<D> block;
     block.name = from.name;
+    block.first = piece.lower;
     block.face_names = from.face_names;
     Index<D> n, nodes;
     for (std::size_t d = 0; d < D; ++d) {

@@ -2,6 +2,7 @@
 
 #include "coupling/carve.hpp"
 #include "coupling_models.hpp"
+#include "divided_grids.hpp"
 #include "littoral/coupler/donor_search.hpp"
 #include "littoral/error.hpp"
 
@@ -89,6 +90,62 @@ TEST(CarveTest, ForcedRegionIsForcedThroughout) {
   const Carving carving = carve(blocks, scene);
   EXPECT_EQ(carving.n_forced, 216);
   EXPECT_EQ(carving.n_fringe + carving.n_blanked, 0);
+}
+
+/// The region lies across cuts and their crossing: statuses are those of the undivided block.
+TEST(CarveTest, LayersGoOnBehindJoins) {
+  const auto scene = scene_with(2, {{-1, 0, 0.3}, {0.7, 0, 0.8}});
+  test::WholeGrid<2> whole{{water_box<2>(32, true)}, {}};
+  for (const int n : {2, 4, 6}) {
+    std::vector<Piece<2>> pieces = test::dealt<2>(whole, n);
+    for (auto& piece : pieces) piece.rank = 0;
+    test::PartGrid<2> part = test::part_of_rank<2>(whole, pieces, {});
+    std::vector<Block<2>> one = whole.blocks;
+    const Carving of_one = carve(one, scene), of_many = carve<2>(part.blocks, part.exchange, scene);
+    EXPECT_EQ(of_one.n_fringe, of_many.n_fringe);
+    EXPECT_EQ(of_one.n_blanked, of_many.n_blanked);
+    EXPECT_GT(of_one.n_blanked, 0);
+    for (std::size_t b = 0; b < part.blocks.size(); ++b)
+      for_each_index<2>({}, part.blocks[b].extent.n, [&](std::array<int, 2> index) {
+        const auto c = static_cast<std::size_t>(part.blocks[b].extent.at(index));
+        for (std::size_t d = 0; d < 2; ++d) index[d] += pieces[b].lower[d];
+        EXPECT_EQ(part.blocks[b].status[c], one[0].status[static_cast<std::size_t>(one[0].extent.at(index))]);
+      });
+  }
+}
+
+/// The region cuts through the overlap of a ring and a box: what it blanks is nobody's donor any more.
+TEST(CarveTest, DonorsAreSoughtOutsideOfWhatTheRegionBlanks) {
+  auto whole = test::ring_over_box<2>();
+  const auto scene = scene_with(2, {{0.4, 0, -9}, {9, 0, 9}});
+  Exchange<2> exchange(whole.blocks, whole.overset);
+  carve<2>(whole.blocks, exchange, scene);
+  exchange.seek_donors(whole.blocks);
+  std::vector<State<2>> q(2);
+  long n_interpolated = 0;
+  const auto value = [&](std::size_t b, std::size_t c) {
+    return 1.0 + 2.0 * whole.blocks[b].centre[0][c] - 3.0 * whole.blocks[b].centre[1][c];
+  };
+  for (std::size_t b = 0; b < 2; ++b) {
+    Block<2>& block = whole.blocks[b];
+    q[b].resize(block.extent.size);
+    block.reference_pressure.assign(block.extent.size, 0.0);
+    evaluate_windows(block, Equations<2>{}, 0.0);
+    for (std::size_t c = 0; c < block.extent.size; ++c) {
+      const bool state =
+          block.status[c] != CellStatus::blanked && block.status[c] != CellStatus::interpolated;
+      q[b].p[c] = state ? value(b, c) : std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+  exchange.states(whole.blocks, q);
+  for (std::size_t b = 0; b < 2; ++b)
+    for_each_index<2>({}, whole.blocks[b].extent.n, [&](const std::array<int, 2>& index) {
+      const auto c = static_cast<std::size_t>(whole.blocks[b].extent.at(index));
+      if (whole.blocks[b].status[c] != CellStatus::interpolated) return;
+      ++n_interpolated;
+      EXPECT_NEAR(q[b].p[c], value(b, c), 1e-11);
+    });
+  EXPECT_GT(n_interpolated, 100);
 }
 
 TEST(DonorOfferTest, PointsBesideAPeriodicFaceFindDonorsWithTheImagesValues) {
