@@ -137,5 +137,18 @@ TEST(FaceColumnsTest, ParticlesEnterUnderTheLevelOfTheMoment) {
   EXPECT_GT(number, 1.0);
 }
 
+TEST(FaceColumnsTest, ContinueFromTheirRecord) {
+  // the level has come from where its depth is six rows to where it would be seven from a fresh start
+  const auto fv = under([](const auto&, double t) { return std::min(0.75 + 0.02 * t, 0.82); });
+  FaceElements<2> whole(open_to_the_left<2>(), k_dx, FaceRows::level);
+  for (int k = 0; k < 40; ++k) whole.integrate(fv, k_eos, 0.1 * k, 0.1);
+  FaceElements<2> half(open_to_the_left<2>(), k_dx, FaceRows::level), fresh = half;
+  half.unpack(whole.pack());
+  for (auto* faces : {&whole, &half, &fresh}) faces->integrate(fv, k_eos, 4.0, 0.1);
+  EXPECT_EQ(whole.pack(), half.pack());
+  EXPECT_EQ(whole[5].centre, half[5].centre);
+  EXPECT_NE(whole[5].centre, fresh[5].centre) << "their number of rows is part of the record";
+}
+
 }  // namespace
 }  // namespace littoral::sph
