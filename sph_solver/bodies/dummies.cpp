@@ -137,15 +137,14 @@ void Dummies<D>::place(const std::vector<Body>& bodies, double reach) {
       if (closed(d, 1) && from > box_.upper[d] - reach) copy(-1.0, 2.0 * box_.upper[d]);
     }
   }
-  for (Columns* columns : {&x, &wall, &normal, &u, &a})
-    for (auto& column : *columns) column.resize(size());
-  body.resize(size());
+  dummies_.resize(size());
+  for (auto& column : x_) column.resize(size());
   refresh(bodies);
 }
 
 template <int D>
 std::array<double, D> Dummies<D>::closest_on_sheet(std::size_t k, const std::array<double, D>& from) const {
-  const SheetPlace& sheet = sheets_[static_cast<std::size_t>(body[k])];
+  const SheetPlace& sheet = sheets_[static_cast<std::size_t>(dummies_[k].body)];
   const Vector3 local = in_scene<D>(in_source(k, from)) - sheet.centre;
   Vector3 point = sheet.centre;
   for (std::size_t q = 0; q < 2; ++q)
@@ -173,15 +172,16 @@ void Dummies<D>::refresh(const std::vector<Body>& bodies) {
     const auto n = in_plane<D>(own.state().rotation(made.normal));
     const auto velocity = in_plane<D>(own.state().velocity_at(surface));
     const auto acceleration = in_plane<D>(own.state().acceleration_at(surface));
+    Dummy& dummy = dummies_[k];
     for (std::size_t d = 0; d < D; ++d) {
       const double s = sign_[k][d], o = offset_[k][d];
-      x[d][k] = s * at[d] + o;
-      wall[d][k] = s * on[d] + o;
-      normal[d][k] = s * n[d];
-      u[d][k] = s * velocity[d];
-      a[d][k] = s * acceleration[d];
+      x_[d][k] = dummy.x[d] = s * at[d] + o;
+      dummy.wall[d] = s * on[d] + o;
+      dummy.normal[d] = s * n[d];
+      dummy.u[d] = s * velocity[d];
+      dummy.a[d] = s * acceleration[d];
     }
-    body[k] = made.body;
+    dummy.body = made.body;
   }
 }
 

@@ -47,19 +47,24 @@ class Dummies {
     return point;
   }
   bool on_sheet(std::size_t k) const {
-    return !sheets_.empty() && sheets_[static_cast<std::size_t>(body[k])].given;
+    return !sheets_.empty() && sheets_[static_cast<std::size_t>(dummies_[k].body)].given;
   }
   /// Of the sheet that a dummy belongs to, the point closest to a given one.
   std::array<double, D> closest_on_sheet(std::size_t k, const std::array<double, D>& from) const;
   /// The side of its sheet from which a sheet's dummy is seen, +1 or -1.
   double front(std::size_t k) const { return -made_[source(k)].normal[2]; }
 
-  // of each, copies included (size())
-  Columns x;       // [m]
-  Columns wall;    // [m] closest point of the surface
-  Columns normal;  // there, out of the fluid
-  Columns u, a;    // of the surface there [m/s, m/s^2]
-  std::vector<std::int32_t> body;
+  using Vector = std::array<double, D>;
+  /// Copies included; all of one next to each other in memory, as the loops over pairs read it.
+  struct Dummy {
+    Vector x;       // [m]
+    Vector wall;    // [m] closest point of the surface
+    Vector normal;  // there, out of the fluid
+    Vector u, a;    // of the surface there [m/s, m/s^2]
+    std::int32_t body;
+  };
+  const Dummy& operator[](std::size_t k) const { return dummies_[k]; }
+  const Columns& x() const { return x_; }  ///< of all, as cells are filled with them
 
  private:
   struct Made {
@@ -84,6 +89,8 @@ class Dummies {
   DomainBox<D> box_;
   double tolerance_;  // [m] round-off of positions
   double volume_;
+  std::vector<Dummy> dummies_;
+  Columns x_;
   std::vector<Made> made_;
   std::vector<SheetPlace> sheets_;  // of each body; empty where none is a sheet
   // of each, copies included: x = sign x_source + offset

@@ -41,9 +41,9 @@ void DummyStates<D>::extrapolate(const Particles<D>& particles, const Dummies<D>
       const std::size_t i = list.particle(row);
       double r2 = 0.0, rise = 0.0;  // (f - a_w) . x_iw
       for (std::size_t d = 0; d < D; ++d) {
-        const double dx = dummies.x[d][e] - particles.x[d][i];
+        const double dx = dummies[e].x[d] - particles.x[d][i];
         r2 += dx * dx;
-        rise += (mass_force[row][d] - dummies.a[d][e]) * dx;
+        rise += (mass_force[row][d] - dummies[e].a[d]) * dx;
       }
       const double weight = particles.V[i] * kernel.value(std::sqrt(r2));
       sum[0] += weight;
@@ -65,9 +65,9 @@ void DummyStates<D>::extrapolate(const Particles<D>& particles, const Dummies<D>
     double into = 0.0;
     for (std::size_t d = 0; d < D; ++d) {
       u_[d][e] = dummies.sign(e, d) * sum[2 + d] / sum[0];
-      into += (u_[d][e] - dummies.u[d][e]) * dummies.normal[d][e];
+      into += (u_[d][e] - dummies[e].u[d]) * dummies[e].normal[d];
     }
-    for (std::size_t d = 0; d < D; ++d) u_[d][e] -= 2.0 * into * dummies.normal[d][e];
+    for (std::size_t d = 0; d < D; ++d) u_[d][e] -= 2.0 * into * dummies[e].normal[d];
   }
 }
 

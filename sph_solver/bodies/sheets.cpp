@@ -29,10 +29,10 @@ bool Sheets<D>::between(const std::vector<Body>& bodies, const std::array<double
 template <int D>
 bool Sheets<D>::shows(const std::vector<Body>& bodies, const Dummies<D>& dummies, std::size_t e,
                       const std::array<double, D>& x) const {
-  const auto own = static_cast<std::size_t>(dummies.body[e]);
+  const auto own = static_cast<std::size_t>(dummies[e].body);
   if (!bodies[own].is_sheet()) return true;
   const Vector3 eye = in_scene<D>(dummies.in_source(e, x)),
-                place = in_scene<D>(dummies.in_source(e, at<D>(dummies.x, e)));
+                place = in_scene<D>(dummies.in_source(e, dummies[e].x));
   const Vector3 from = bodies[own].to_local(eye), to = bodies[own].to_local(place);
   if (Body::side(from) != dummies.front(e)) return false;
   const auto way = bodies[own].passage(from, to);

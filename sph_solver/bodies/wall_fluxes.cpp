@@ -30,7 +30,7 @@ struct TwoSided {
   WallFace<D> operator()(const PairSide<D>& i, WallView<D>&, std::size_t e, const Vector<D>& dx,
                          const Vector<D>& f) const {
     const double p = states.pressure(e);
-    const DummySide<D> dummy{states.velocity(e), at<D>(dummies.a, e), p, eos.density(p)};
+    const DummySide<D> dummy{states.velocity(e), dummies[e].a, p, eos.density(p)};
     return dummy_face<D, variant>(i, dummy, dx, f, eos.c);
   }
 };
@@ -40,6 +40,7 @@ void loop(const Particles<D>& particles, const Gradients<D>& gradients, const Du
           const WallList<D>& list, const RowAccelerations<D>& mass_force, const Numerics<D>& numerics,
           double level, std::size_t n_bodies, const Face& face_of, Rate<D>& rate, RowForces<D>& forces) {
   const Kernel<D> kernel(numerics.kernel_radius);
+  const double R2 = kernel.R * kernel.R;
   const double V = dummies.volume();
   const auto n = static_cast<std::ptrdiff_t>(list.n_rows());
 #pragma omp parallel for schedule(static)
@@ -57,13 +58,14 @@ void loop(const Particles<D>& particles, const Gradients<D>& gradients, const Du
     Vector<D> total{};
     for (std::size_t pair = list.begin(row); pair < list.end(row); ++pair) {
       const std::size_t e = list.dummy(pair);
-      Vector<D> dx = at<D>(dummies.x, e);
+      Vector<D> dx = dummies[e].x;
       for (std::size_t d = 0; d < D; ++d) dx[d] -= x[d];
-      const double f = -V * kernel.slope_over_r(std::sqrt(dot_of<D>(dx, dx)));  // V grad W = f dx
-      if (f == 0.0) continue;
+      const double r2 = dot_of<D>(dx, dx);
+      if (r2 >= R2) continue;                                    // most pairs of the skin
+      const double f = -V * kernel.slope_over_r(std::sqrt(r2));  // V grad W = f dx
       const WallFace<D> face = face_of(side, view, e, dx, mass_force[row]);
       volume += f * dot_of<D>(face.jump, dx);
-      auto& force = forces[row * n_bodies + static_cast<std::size_t>(dummies.body[e])];
+      auto& force = forces[row * n_bodies + static_cast<std::size_t>(dummies[e].body)];
       for (std::size_t d = 0; d < D; ++d) {
         const double push = 2.0 * particles.V[i] * f * (face.p - level) * dx[d];
         force[d] += push;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "bodies/wall_list.hpp"
-#include "neighbors/neighbor_list.hpp"
 #include "physics/gradients.hpp"
 
 namespace littoral::sph {
@@ -11,15 +10,14 @@ namespace littoral::sph {
 ///   (sum_j V_j x_ij grad W_ij + sum_w V_w (x_iw . n)^2 F_iw n n^T) grad p = sum_j V_j p_ij grad W_ij
 ///                                                                  + sum_w V_w (x_iw . n)^2 F_iw s n,
 /// exact for water at rest; a row of particles on a floor has a gradient along it. Velocities keep (S3).
-/// in, out  gradients.p of the particles that see a wall, owned part     comm  local
+/// out   known: both sums over w, a row of the list each     comm  local
 template <int D>
-void correct_gradients(const Particles<D>& particles, const NeighborList<D>& neighbors,
-                       const Dummies<D>& dummies, const WallList<D>& list,
-                       const RowAccelerations<D>& mass_force, Gradients<D>& gradients);
+void find_known_slopes(const Particles<D>& particles, const Dummies<D>& dummies, const WallList<D>& list,
+                       const RowAccelerations<D>& mass_force, double kernel_radius, KnownSlopes<D>& known);
 
-extern template void correct_gradients<2>(const Particles<2>&, const NeighborList<2>&, const Dummies<2>&,
-                                          const WallList<2>&, const RowAccelerations<2>&, Gradients<2>&);
-extern template void correct_gradients<3>(const Particles<3>&, const NeighborList<3>&, const Dummies<3>&,
-                                          const WallList<3>&, const RowAccelerations<3>&, Gradients<3>&);
+extern template void find_known_slopes<2>(const Particles<2>&, const Dummies<2>&, const WallList<2>&,
+                                          const RowAccelerations<2>&, double, KnownSlopes<2>&);
+extern template void find_known_slopes<3>(const Particles<3>&, const Dummies<3>&, const WallList<3>&,
+                                          const RowAccelerations<3>&, double, KnownSlopes<3>&);
 
 }  // namespace littoral::sph

@@ -7,7 +7,7 @@ namespace littoral::sph {
 template <int D>
 void WallList<D>::build(const Particles<D>& particles, const Dummies<D>& dummies,
                         const std::vector<Body>& bodies, const Sheets<D>& sheets, double reach) {
-  grid_.bin(dummies.x, dummies.size(), 0.5 * reach);
+  grid_.bin(dummies.x(), dummies.size(), 0.5 * reach);
   const auto& order = grid_.order();
   const auto n = static_cast<std::ptrdiff_t>(particles.n_owned);
   const auto each = [&](std::size_t i, const auto& f) {
@@ -17,7 +17,7 @@ void WallList<D>::build(const Particles<D>& particles, const Dummies<D>& dummies
       for (std::size_t k = begin; k < end; ++k) {
         const auto e = static_cast<std::size_t>(order[k]);
         double r2 = 0.0;
-        for (std::size_t d = 0; d < D; ++d) r2 += (dummies.x[d][e] - x[d]) * (dummies.x[d][e] - x[d]);
+        for (std::size_t d = 0; d < D; ++d) r2 += (dummies[e].x[d] - x[d]) * (dummies[e].x[d] - x[d]);
         if (r2 < reach * reach && (sheets.none() || sheets.shows(bodies, dummies, e, x))) f(order[k]);
       }
     });
@@ -46,7 +46,7 @@ void WallList<D>::build(const Particles<D>& particles, const Dummies<D>& dummies
     std::stable_sort(
         list_.begin() + static_cast<std::ptrdiff_t>(start_[row]),
         list_.begin() + static_cast<std::ptrdiff_t>(start_[row + 1]), [&](std::int32_t a, std::int32_t b) {
-          return dummies.body[static_cast<std::size_t>(a)] < dummies.body[static_cast<std::size_t>(b)];
+          return dummies[static_cast<std::size_t>(a)].body < dummies[static_cast<std::size_t>(b)].body;
         });
   }
 }

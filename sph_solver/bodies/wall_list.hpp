@@ -27,6 +27,8 @@ class WallList {
   /// Row of an owned particle, -1: it sees none.
   std::int32_t row_of(std::size_t particle) const { return row_of_[particle]; }
 
+  const std::vector<std::int32_t>& rows_of() const { return row_of_; }
+
   /// Calls f(dummy) for every dummy that may lie within `radius` of x, where the bodies were at build().
   template <class F>
   void for_each_near(const std::array<double, D>& x, double radius, const F& f) const {

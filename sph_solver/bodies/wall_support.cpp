@@ -67,7 +67,7 @@ void WallSupport<D>::find(const Particles<D>& particles, const NeighborList<D>& 
     close_[row] = closest.distance < 0.5 * spacing;
     for (std::size_t pair = list.begin(row); pair < list.end(row); ++pair) {
       const std::size_t e = list.dummy(pair);
-      Vector<D> dx = at<D>(dummies.x, e);
+      Vector<D> dx = dummies[e].x;
       for (std::size_t d = 0; d < D; ++d) dx[d] -= x[d];
       separation_[pair] = dx;
       const double f = -dummies.volume() * kernel.slope_over_r(std::sqrt(dot_of<D>(dx, dx)));

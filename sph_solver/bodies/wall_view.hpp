@@ -63,15 +63,15 @@ class WallView {
     for (std::size_t k = 0; k < D; ++k) n[k] -= x_[k];
     const double d = std::sqrt(dot_of<D>(n, n));
     for (double& component : n) component /= d;
-    return {n, at<D>(dummies_.u, e), at<D>(dummies_.a, e), d};
+    return {n, dummies_[e].u, dummies_[e].a, d};
   }
   double distance(std::size_t e) const {
     double d = 0.0;
-    for (std::size_t k = 0; k < D; ++k) d += (dummies_.wall[k][e] - x_[k]) * dummies_.normal[k][e];
+    for (std::size_t k = 0; k < D; ++k) d += (dummies_[e].wall[k] - x_[k]) * dummies_[e].normal[k];
     return d;
   }
   WallPlane<D> plane(std::size_t e, double d) const {
-    return {at<D>(dummies_.normal, e), at<D>(dummies_.u, e), at<D>(dummies_.a, e), d};
+    return {dummies_[e].normal, dummies_[e].u, dummies_[e].a, d};
   }
   void find_closest() {
     found_ = true;
@@ -86,7 +86,7 @@ class WallView {
         continue;
       }
       double r2 = 0.0;
-      for (std::size_t c = 0; c < D; ++c) r2 += (dummies_.x[c][e] - x_[c]) * (dummies_.x[c][e] - x_[c]);
+      for (std::size_t c = 0; c < D; ++c) r2 += (dummies_[e].x[c] - x_[c]) * (dummies_[e].x[c] - x_[c]);
       if (r2 >= least) continue;
       in_front = true;
       least = r2, closest_ = e, distance_ = d;

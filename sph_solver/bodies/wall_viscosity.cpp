@@ -26,9 +26,9 @@ void add_wall_friction(const Particles<D>& particles, const Gradients<D>& gradie
     WallView<D> view(dummies, list, row, x);
     for (std::size_t pair = list.begin(row); pair < list.end(row); ++pair) {
       const std::size_t e = list.dummy(pair);
-      const auto body = static_cast<std::size_t>(dummies.body[e]);
+      const auto body = static_cast<std::size_t>(dummies[e].body);
       if (!sticks[body]) continue;
-      Vector<D> dx = at<D>(dummies.x, e);
+      Vector<D> dx = dummies[e].x;
       for (std::size_t d = 0; d < D; ++d) dx[d] -= x[d];
       const double r2 = std::max(least, dot_of<D>(dx, dx));
       const double f = -dummies.volume() * kernel.slope_over_r(std::sqrt(r2));

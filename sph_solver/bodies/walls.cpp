@@ -48,11 +48,11 @@ void Walls<D>::move_to(double t) {
   for (Body& body : bodies_) body.move_to(t);
   dummies_.refresh(bodies_);
   for (std::size_t e = 0; e < dummies_.size(); ++e) {
-    const auto u = at<D>(dummies_.u, e);
+    const auto u = dummies_[e].u;
     const double speed = std::sqrt(dot_of<D>(u, u));
     if (speed <= numerics_.eos.c) continue;
     std::ostringstream text;
-    text << "t = " << t << " s: body '" << bodies_[static_cast<std::size_t>(dummies_.body[e])].name()
+    text << "t = " << t << " s: body '" << bodies_[static_cast<std::size_t>(dummies_[e].body)].name()
          << "' moves at " << speed << " m/s, faster than sound (" << numerics_.eos.c
          << " m/s). Weakly compressible water allows about a tenth of it: a higher fluid.sound_speed, or a "
             "slower "
@@ -111,18 +111,30 @@ std::optional<SurfacePoint> gone_through(const Body& body, const BodyState& at_s
 template <int D>
 std::size_t Walls<D>::keep_out(Particles<D>& particles, const std::array<std::vector<double>, D>& start,
                                double tolerance, double time) {
+  const auto in_front = [&](std::size_t e, std::size_t i) {
+    double d = 0.0;
+    for (std::size_t k = 0; k < D; ++k)
+      d += (dummies_[e].wall[k] - particles.x[k][i]) * dummies_[e].normal[k];
+    return d >= 0.0;
+  };
+  std::vector<char> suspect(list_.n_rows(), 0);  // behind the plane of one of its dummies
+  const auto n = static_cast<std::ptrdiff_t>(list_.n_rows());
+#pragma omp parallel for schedule(static)
+  for (std::ptrdiff_t k = 0; k < n; ++k) {
+    const auto row = static_cast<std::size_t>(k);
+    for (std::size_t pair = list_.begin(row); pair < list_.end(row) && !suspect[row]; ++pair)
+      suspect[row] = !in_front(list_.dummy(pair), list_.particle(row));
+  }
   std::size_t n_put_back = 0;
   for (std::size_t row = 0; row < list_.n_rows(); ++row) {
+    if (!suspect[row]) continue;
     const std::size_t i = list_.particle(row);
     std::int32_t last = -1;
     for (std::size_t pair = list_.begin(row); pair < list_.end(row); ++pair) {
       const std::size_t e = list_.dummy(pair);
-      if (dummies_.body[e] == last) continue;  // tested already
-      double in_front = 0.0;
-      for (std::size_t d = 0; d < D; ++d)
-        in_front += (dummies_.wall[d][e] - particles.x[d][i]) * dummies_.normal[d][e];
-      if (in_front >= 0.0) continue;
-      last = dummies_.body[e];
+      if (dummies_[e].body == last) continue;  // tested already
+      if (in_front(e, i)) continue;
+      last = dummies_[e].body;
       const auto b = static_cast<std::size_t>(last);
       const Vector3 x = in_scene<D>(at<D>(particles.x, i));
       const auto wall = gone_through<D>(bodies_[b], at_step_[b], in_scene<D>(at<D>(start, i)), x);
@@ -175,9 +187,9 @@ void Walls<D>::begin_stage(const Particles<D>& particles, double t, OtherRanks<D
 }
 
 template <int D>
-void Walls<D>::correct_gradients(const Particles<D>& particles, const NeighborList<D>& neighbors,
-                                 Gradients<D>& gradients) const {
-  sph::correct_gradients<D>(particles, neighbors, dummies_, list_, mass_force_, gradients);
+const KnownSlopes<D>& Walls<D>::known_slopes(const Particles<D>& particles) {
+  find_known_slopes<D>(particles, dummies_, list_, mass_force_, numerics_.kernel_radius, known_);
+  return known_;
 }
 
 template <int D>
@@ -230,7 +242,7 @@ double Walls<D>::coverage(const std::array<double, D>& x) const {
   list_.for_each_near(x, kernel.R + numerics_.skin, [&](std::size_t e) {
     if (!sheets_.none() && !sheets_.shows(bodies_, dummies_, e, x)) return;
     double r2 = 0.0;
-    for (std::size_t d = 0; d < D; ++d) r2 += (dummies_.x[d][e] - x[d]) * (dummies_.x[d][e] - x[d]);
+    for (std::size_t d = 0; d < D; ++d) r2 += (dummies_[e].x[d] - x[d]) * (dummies_[e].x[d] - x[d]);
     sum += dummies_.volume() * kernel.value(std::sqrt(r2));
   });
   return sum;

@@ -46,9 +46,9 @@ class Walls {
   /// What the terms of a stage at time t need: the mass force of each row, and the dummies' states where they
   /// have some. comm: one sum over `others` with extrapolated wall states, else local
   void begin_stage(const Particles<D>& particles, double t, OtherRanks<D>* others);
-  /// Terms of a stage (S12)-(S14).
-  void correct_gradients(const Particles<D>& particles, const NeighborList<D>& neighbors,
-                         Gradients<D>& gradients) const;
+  /// What walls know of the gradients of this stage (S13).
+  const KnownSlopes<D>& known_slopes(const Particles<D>& particles);
+  /// Terms of a stage (S12), (S14).
   /// level: of the pressure, taken off [Pa], as in the pairs of particles
   void add_rates(const Particles<D>& particles, const Gradients<D>& gradients, double level, Rate<D>& rate);
 
@@ -85,6 +85,7 @@ class Walls {
   WallSupport<D> support_;
   DummyStates<D> states_;
   RowAccelerations<D> mass_force_;
+  KnownSlopes<D> known_;
   RowForces<D> pressure_, friction_;  // of the last stage
   std::vector<BodyLoad> loads_, impulses_;
   std::vector<BodyState> at_build_, at_step_;  // the bodies' states then

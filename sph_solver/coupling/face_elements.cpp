@@ -233,10 +233,11 @@ void FaceElements<D>::integrate(const Exterior& fv, const LinearEos& eos, double
 }
 
 template <int D>
-double FaceElements<D>::mean_pressure(const Exterior& fv, double time, double otherwise) const {
+double FaceElements<D>::mean_pressure(const Exterior& fv, double time, double otherwise,
+                                      const Walls<D>* walls) const {
   std::vector<double> forces(size(), 0.0), areas(size(), 0.0);
   for (std::size_t e = 0; e < size(); ++e) {
-    if (!is_mine(e)) continue;
+    if (!is_mine(e) || (walls != nullptr && walls->inside(elements_[e].centre))) continue;
     const auto state = fv.at(to_vec3<D>(elements_[e].centre), time, hint_[e]);
     if (!state) continue;
     forces[e] = state->p * elements_[e].area;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "bodies/walls.hpp"
 #include "coupling/compensated.hpp"
 #include "coupling/exterior.hpp"
 #include "coupling/face_columns.hpp"
@@ -37,7 +38,9 @@ class FaceElements {
   double mass(std::size_t e) const { return mass_[e].value(); }  // [kg]
   void credit(std::size_t e, double mass) { mass_[e] += mass; }  // [kg]
   /// Mean of FV's pressure over the outer faces at `time` [Pa]; `otherwise` where FV has no water at any.
-  double mean_pressure(const Exterior& fv, double time, double otherwise) const;
+  /// walls: elements inside bodies do not count; null without
+  double mean_pressure(const Exterior& fv, double time, double otherwise,
+                       const Walls<D>* walls = nullptr) const;
   /// Where water flows out, a particle may leave through the element beside the one that its mass was counted
   /// on: a whole particle's surplus goes to the nearest element of the face that is owed one.
   void level_outflow(double particle_mass);

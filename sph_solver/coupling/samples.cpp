@@ -15,6 +15,9 @@ namespace {
 /// Less than the corner of a body of water has [-].
 constexpr double k_least_coverage = 0.25;
 
+/// Less of a kernel than the inner corner of a tank leaves free [-]: a point within a body.
+constexpr double k_least_free = 0.1;
+
 template <int D>
 constexpr std::size_t k_basis = D + 1;
 
@@ -109,7 +112,7 @@ void sample_states(const Particles<D>& particles, const Layers<D>& layers, const
             for (std::size_t j = 0; j < k_basis<D>; ++j) A[i][j] += weight * b[i] * b[j];
         }
       });
-      if (walls != nullptr) coverage /= std::max(k_least_coverage, 1.0 - walls->coverage(target));
+      if (walls != nullptr) coverage /= std::max(k_least_free, 1.0 - walls->coverage(target));
       samples.coverage[t] = coverage;
       if (coverage < k_least_coverage) {
         if (rules.free_surface) samples.status[t] = coupler::SampleStatus::dry;

@@ -94,8 +94,8 @@ void WindowDriver<D>::advance(const coupler::Agreement& agreement, Particles<D>&
     }
     partner_.receive(window, donors_.values());
     if (level_follows_fv_ && hooks_.exchange().elements().size() > 0)
-      dynamics.set_pressure_level(
-          hooks_.exchange().elements().mean_pressure(donors_, window.t_begin, reference_pressure_));
+      dynamics.set_pressure_level(hooks_.exchange().elements().mean_pressure(
+          donors_, window.t_begin, reference_pressure_, dynamics.walls()));
     for (int k = 0; k < window.substeps; ++k) dynamics.step(particles, window.t_begin + k * dt, dt, &hooks_);
     send_samples(window, particles, dynamics);
   }

@@ -56,10 +56,10 @@ void BodyPoints<D>::write(double time, const Walls<D>& walls) {
   support::OutputField body{"body", 1, std::vector<double>(n)};
   support::OutputField velocity{"velocity", 3, std::vector<double>(3 * n, 0.0)};
   for (std::size_t k = 0; k < n; ++k) {
-    body.values[k] = static_cast<double>(dummies.body[k]);
+    body.values[k] = static_cast<double>(dummies[k].body);
     for (std::size_t d = 0; d < D; ++d) {
-      xyz[3 * k + scene_axis<D>(d)] = dummies.x[d][k];
-      velocity.values[3 * k + scene_axis<D>(d)] = dummies.u[d][k];
+      xyz[3 * k + scene_axis<D>(d)] = dummies[k].x[d];
+      velocity.values[3 * k + scene_axis<D>(d)] = dummies[k].u[d];
     }
   }
   series_.write_points(time, xyz, {body, velocity});

@@ -147,12 +147,16 @@ template <int D>
 template <class Real>
 void Dynamics<D>::pair_loops(const Particles<D>& particles, PairRows<D, Real>& rows) {
   const bool second_order = numerics_.reconstruction != Reconstruction::first_order;
+  const KnownSlopes<D>* known = nullptr;
+  if (walls_ && second_order) {
+    const PhaseSeconds::Scope scope(seconds_, Phase::walls);
+    known = &walls_->known_slopes(particles);
+  }
   {
     const PhaseSeconds::Scope scope(seconds_, Phase::gradients);
     rows.pack_states(particles, Kernel<D>(numerics_.kernel_radius), pressure_level_);
     if (second_order) {
-      compute_gradients(rows, neighbors_, gradients_);                           // (S3)
-      if (walls_) walls_->correct_gradients(particles, neighbors_, gradients_);  // (S13)
+      compute_gradients(rows, neighbors_, gradients_, known);  // (S3), (S13)
       ghosts_.refresh(gradients_, particles.n_owned);
     }
   }

@@ -53,6 +53,12 @@ Sums<D> sum_pairs(const PairRows<D, Real>& rows, Real inv_R, std::size_t i, cons
   return sums;
 }
 
+/// 0 where there is none.
+template <int D>
+SymmetricMatrix<D> usable_inverse(const SymmetricMatrix<D>& B) {
+  return B.least_eigenvalue_at_least() > k_least_eigenvalue ? B.inverse() : SymmetricMatrix<D>{};
+}
+
 }  // namespace
 
 template <int D>
@@ -64,7 +70,7 @@ void Gradients<D>::resize(std::size_t n) {
 
 template <int D, class Real>
 void compute_gradients(const PairRows<D, Real>& rows, const NeighborList<D>& neighbors,
-                       Gradients<D>& gradients) {
+                       Gradients<D>& gradients, const KnownSlopes<D>* known) {
   gradients.resize(rows.size());
   const auto inv_R = static_cast<Real>(1.0 / neighbors.kernel_radius());
   const auto n = static_cast<std::ptrdiff_t>(rows.n_owned());
@@ -73,9 +79,14 @@ void compute_gradients(const PairRows<D, Real>& rows, const NeighborList<D>& nei
     const auto i = static_cast<std::size_t>(row);
     const std::size_t begin = neighbors.start()[i];
     const auto sums = sum_pairs(rows, inv_R, i, neighbors.list() + begin, neighbors.start()[i + 1] - begin);
-    SymmetricMatrix<D> L;
-    if (sums.B.least_eigenvalue_at_least() > k_least_eigenvalue) L = sums.B.inverse();
-    const auto grad_p = L * sums.p;
+    const auto L = usable_inverse(sums.B);
+    auto grad_p = L * sums.p;
+    if (known != nullptr && known->row_of[i] >= 0) {
+      const auto wall = static_cast<std::size_t>(known->row_of[i]);
+      auto slope = known->slope[wall];
+      for (std::size_t b = 0; b < D; ++b) slope[b] += sums.p[b];
+      grad_p = usable_inverse(sums.B + known->B[wall]) * slope;
+    }
     for (std::size_t b = 0; b < D; ++b) gradients.p[b][i] = grad_p[b];
     for (std::size_t a = 0; a < D; ++a) {
       const auto grad_u = L * sums.u[a];
@@ -94,10 +105,14 @@ void compute_gradients(const Particles<D>& particles, const NeighborList<D>& nei
 
 template struct Gradients<2>;
 template struct Gradients<3>;
-template void compute_gradients(const PairRows<2, double>&, const NeighborList<2>&, Gradients<2>&);
-template void compute_gradients(const PairRows<3, double>&, const NeighborList<3>&, Gradients<3>&);
-template void compute_gradients(const PairRows<2, float>&, const NeighborList<2>&, Gradients<2>&);
-template void compute_gradients(const PairRows<3, float>&, const NeighborList<3>&, Gradients<3>&);
+template void compute_gradients(const PairRows<2, double>&, const NeighborList<2>&, Gradients<2>&,
+                                const KnownSlopes<2>*);
+template void compute_gradients(const PairRows<3, double>&, const NeighborList<3>&, Gradients<3>&,
+                                const KnownSlopes<3>*);
+template void compute_gradients(const PairRows<2, float>&, const NeighborList<2>&, Gradients<2>&,
+                                const KnownSlopes<2>*);
+template void compute_gradients(const PairRows<3, float>&, const NeighborList<3>&, Gradients<3>&,
+                                const KnownSlopes<3>*);
 template void compute_gradients<2>(const Particles<2>&, const NeighborList<2>&, Gradients<2>&);
 template void compute_gradients<3>(const Particles<3>&, const NeighborList<3>&, Gradients<3>&);
 

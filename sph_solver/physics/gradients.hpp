@@ -1,10 +1,12 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "neighbors/neighbor_list.hpp"
 #include "particles/particles.hpp"
+#include "physics/symmetric_matrix.hpp"
 
 namespace littoral::sph {
 
@@ -20,15 +22,23 @@ struct Gradients {
   void resize(std::size_t n);
 };
 
+/// What walls know of the pressure's gradient at some particles: their part of both sides of (S3).
+template <int D>
+struct KnownSlopes {
+  std::vector<std::int32_t> row_of;          // (n_owned) -1: no wall
+  std::vector<SymmetricMatrix<D>> B;         // (rows)
+  std::vector<std::array<double, D>> slope;  // (rows) [Pa/m]
+};
+
 /// Renormalised gradients (S3): grad q_i = B_i^-1 sum_j V_j (q_j - q_i) grad W_ij, exact for linear fields on
 /// any cloud. Where the neighbours nearly lie in a plane (spray) B has no usable inverse and the gradient is
 /// 0: first order.
-/// in    rows with states, copies current
+/// in    rows with states, copies current; known: added for the pressure (S13), null without walls
 /// out   gradients, owned part (the caller refreshes the copies)
 /// comm  local
 template <int D, class Real>
 void compute_gradients(const PairRows<D, Real>& rows, const NeighborList<D>& neighbors,
-                       Gradients<D>& gradients);
+                       Gradients<D>& gradients, const KnownSlopes<D>* known = nullptr);
 /// The same in double, packing rows for this call alone.
 template <int D>
 void compute_gradients(const Particles<D>& particles, const NeighborList<D>& neighbors,

@@ -106,8 +106,8 @@ TEST(BodiesSheetsTest, EachPlaceOfAKernelIsInSightOrHeldByOneDummy) {
       for (std::size_t k = walls->list().begin(static_cast<std::size_t>(row));
            k < walls->list().end(static_cast<std::size_t>(row)); ++k) {
         const std::size_t e = walls->list().dummy(k);
-        seen += in_reach(walls->dummies().x[0][e] - particles.x[0][i],
-                         walls->dummies().x[1][e] - particles.x[1][i]);
+        seen += in_reach(walls->dummies()[e].x[0] - particles.x[0][i],
+                         walls->dummies()[e].x[1] - particles.x[1][i]);
       }
     EXPECT_EQ(seen, places) << particles.x[0][i] << ", " << particles.x[1][i];
   }

@@ -255,7 +255,7 @@ TEST(BodiesDummiesTest, FillEachPlaceOnceWhereBodiesOverlapAndAcrossPeriodicSide
   bump.radius = 3.0;
   bump.position = {5, 0, 0};
   const auto walls = walls_of<2>({floor, bump}, numerics, box);
-  const auto& x = walls->dummies().x;
+  const auto& x = walls->dummies().x();
   std::size_t inside = 0;
   for (std::size_t a = 0; a < walls->dummies().size(); ++a) {
     for (std::size_t b = 0; b < a; ++b) ASSERT_GT(std::hypot(x[0][a] - x[0][b], x[1][a] - x[1][b]), 0.9);

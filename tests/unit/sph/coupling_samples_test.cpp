@@ -70,6 +70,44 @@ void constants_are_exact(SampleMethod method) {  // C2
   }
 }
 
+TEST(SamplesTest, BesideWallsLinearFieldsAreExactAndTheCoverageIsOfWhatTheyLeave) {
+  const auto linear = [](const coupler::Vec3& x, double) {
+    const double p = 3.0 + 2.0 * x[0] - x[1] + 5.0 * x[2];
+    return coupler::DonorState{p, {1.0 + x[2], x[0] - x[1], 0.5 * x[1]}, 0.0};
+  };
+  const auto particles = test::lattice<3>({0, 0, 0}, {1, 1, 1}, k_dx, k_eos, test::FormulaExterior(linear));
+  support::BodySpec tank;
+  tank.size = {1, 1, 4};
+  tank.position = {0.5, 0.5, 2};
+  tank.fluid = support::BodySpec::Fluid::inside;
+  Numerics<3> numerics;
+  numerics.eos = k_eos;
+  numerics.spacing = k_dx;
+  numerics.kernel_radius = 2.7 * k_dx;
+  numerics.skin = 0.3 * k_dx;
+  DomainBox<3> box;
+  box.lower.fill(-4 * k_dx);
+  box.upper.fill(1.0 + 4 * k_dx);
+  std::vector<Body> bodies;
+  bodies.emplace_back(tank, false, 1.0);
+  Walls<3> walls(std::move(bodies), numerics, box, Lattice<3>{box.lower, k_dx});
+  walls.build(particles);
+  const auto targets = points({{0.001, 0.001, 0.001}, {0.3, 0.001, 0.5}, {0.5, 0.5, 0.001}});
+  coupler::Samples samples;
+  samples.resize(targets.size(), true);
+  sample_states(particles, test::unit_box<3>({}, 0.0, 0.0), {SampleMethod::corrected, 2.7 * k_dx, true},
+                targets, samples, &walls);
+  for (std::size_t t = 0; t < targets.size(); ++t) {
+    EXPECT_EQ(samples.status[t],
+              coupler::SampleStatus::ok);  // in a corner the water has an eighth of the kernel
+    EXPECT_NEAR(samples.coverage[t], 1.0, 0.03);
+    const auto exact = linear({targets.x[t], targets.y[t], targets.z[t]}, 0.0);
+    EXPECT_NEAR(samples.p[t], exact.p, 1e-11);
+    EXPECT_NEAR(samples.u[t], exact.u[0], 1e-11);
+    EXPECT_NEAR(samples.w[t], exact.u[2], 1e-11);
+  }
+}
+
 TEST(SamplesTest, ConstantsAreExact) {
   constants_are_exact<2>(SampleMethod::shepard);
   constants_are_exact<2>(SampleMethod::corrected);
