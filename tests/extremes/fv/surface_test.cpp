@@ -1,0 +1,132 @@
+// Free surfaces where they hardly fit the grid: in a corner, in less than a cell, at its ends, too steep, too
+// fast.
+#include <gtest/gtest.h>
+
+#include "free_surface/free_surface.hpp"
+#include "grid/space.hpp"
+#include "level_set/volume.hpp"
+#include "littoral/error.hpp"
+#include "runs.hpp"
+
+namespace littoral::fv {
+namespace {
+
+constexpr double k_g = 9.81, k_rho = 1000.0;
+using Surface = std::function<double(const std::array<double, 2>&)>;
+
+/// A tank of length and height 1 (of `aspect` at equal cells in x), water at rest under p = 0 at the level 0
+/// of `surface`; gravity turned by `degrees`.
+Stepper<2> tank(int n, const Surface& surface, double degrees = 0.0, double aspect = 1.0) {
+  Block<2> block = make_block<2>("tank", {n, n}, {}, [=](const std::array<int, 2>& i) {
+    return std::array<double, 2>{aspect * i[0] / n, static_cast<double>(i[1]) / n};
+  });
+  close_with<2>(block, Condition::slip);
+  const double angle = degrees * M_PI / 180.0;
+  Equations<2> equations;
+  equations.fluid.density = k_rho;
+  equations.fluid.gravity = {-k_g * std::sin(angle), -k_g * std::cos(angle)};
+  InnerTolerance tolerance = three_orders();
+  tolerance.floor = 1e-9;
+  Stepper<2> stepper({block}, equations, std::make_unique<MultigridSolver<2>>(), tolerance);
+  stepper.initialise(
+      [&](const std::array<double, 2>& x, double) {
+        return PointState<2>{-k_rho * k_g * surface(x), {}};
+      },
+      0.0);
+  stepper.set_surface([&](const std::array<double, 3>& x, double) { return surface({x[0], x[2]}); });
+  return stepper;
+}
+
+double volume(const Stepper<2>& stepper) { return water_volume(stepper.blocks(), stepper.surface()->phi()); }
+
+/// Steps until the end, or an error that says why not: either is all right, nothing else.
+struct Fate {
+  bool finite = true, refused = false;
+  double volume = 0.0, fastest = 0.0;
+};
+Fate fate(Stepper<2>& stepper, double dt, int steps, const char* what, double value) {
+  Fate fate;
+  const double before = volume(stepper);
+  try {
+    fate.fastest = march(stepper, dt, steps, what, value).fastest;
+  } catch (const StabilityError& told) {
+    fate.refused = true;
+    std::printf("%-34s %10.3g   refused: %.100s\n", what, value, told.what());
+  }
+  fate.volume = volume(stepper) / before - 1.0;
+  fate.finite = std::isfinite(fate.fastest) && std::isfinite(fate.volume);
+  std::printf("%-34s %10.3g   volume %+.2e\n", what, value, fate.volume);
+  return fate;
+}
+
+TEST(ExtremeSurfaceTest, WaterAtRestInACorner) {
+  for (const double across : {0.9, 0.31, 0.12}) {  // of the tank, along each wall
+    Stepper<2> stepper = tank(
+        12, [=](const std::array<double, 2>& x) { return (x[0] + x[1] - across) / std::sqrt(2.0); }, 45.0);
+    const Fate is = fate(stepper, 0.01, 20, "corner, part of a side", across);
+    EXPECT_FALSE(is.refused);
+    EXPECT_LT(is.fastest, 1e-6) << across;
+    EXPECT_NEAR(is.volume, 0.0, 1e-6) << across;
+  }
+}
+
+TEST(ExtremeSurfaceTest, FilmsOnTheBottom) {
+  const int n = 12;
+  for (const double cells : {1.51, 1.0, 0.7, 0.5, 0.3}) {  // at .5 the surface lies in the first centres
+    Stepper<2> stepper = tank(n, [=](const std::array<double, 2>& x) { return x[1] - cells / n; });
+    const Fate is = fate(stepper, 0.005, 20, "film, cells deep", cells);
+    EXPECT_FALSE(is.refused);
+    EXPECT_LT(is.fastest, 1e-6) << cells;
+    EXPECT_NEAR(is.volume, 0.0, 1e-6) << cells;
+  }
+}
+
+TEST(ExtremeSurfaceTest, FilledToTheTop) {
+  const int n = 12;
+  for (const double cells : {1.2, 0.5, 0.2, 0.0}) {  // of air
+    Stepper<2> stepper = tank(n, [=](const std::array<double, 2>& x) { return x[1] - 1.0 + cells / n; });
+    const Fate is = fate(stepper, 0.005, 20, "air under the lid, cells", cells);
+    EXPECT_TRUE(is.finite);
+    EXPECT_LT(is.fastest, 1e-6) << cells;
+  }
+}
+
+TEST(ExtremeSurfaceTest, SloshingAgainstTheLidAndDownToTheBottom) {
+  for (const double tilt : {0.4, 0.8}) {
+    Stepper<2> stepper =
+        tank(16, [=](const std::array<double, 2>& x) { return x[1] - 0.5 - tilt * (x[0] - 0.5); });
+    EXPECT_TRUE(fate(stepper, 0.005, 120, "sloshing, tilt at start", tilt).finite) << tilt;
+  }
+}
+
+TEST(ExtremeSurfaceTest, SteepnessUpToBreaking) {
+  for (const double ka : {0.1, 0.3, 0.6, 1.0}) {
+    Stepper<2> stepper = tank(16, [=](const std::array<double, 2>& x) {
+      return x[1] - 0.5 - ka / (2.0 * M_PI) * std::cos(2.0 * M_PI * x[0]);
+    });
+    EXPECT_TRUE(fate(stepper, 0.008, 100, "standing wave, ka", ka).finite) << ka;
+  }
+}
+
+TEST(ExtremeSurfaceTest, SurfaceCourantNumberOneAndFive) {
+  for (const double cfl : {1.0, 5.0}) {
+    Stepper<2> stepper = tank(
+        24, [=](const std::array<double, 2>& x) { return x[1] - 0.5 - 0.1 * std::cos(2.0 * M_PI * x[0]); });
+    // the surface moves with about a omega
+    const double speed = 0.1 * std::sqrt(k_g * 2.0 * M_PI);
+    EXPECT_TRUE(fate(stepper, cfl / 24.0 / speed, 12, "surface CFL", cfl).finite) << cfl;
+  }
+}
+
+TEST(ExtremeSurfaceTest, CellsAHundredTimesAsLongAsHigh) {
+  Stepper<2> stepper = tank(
+      16,
+      [](const std::array<double, 2>& x) { return x[1] - 0.52 - 0.05 * std::cos(2.0 * M_PI * x[0] / 100.0); },
+      0.0, 100.0);
+  const Fate is = fate(stepper, 0.5, 40, "aspect ratio", 100.0);
+  EXPECT_FALSE(is.refused);
+  EXPECT_NEAR(is.volume, 0.0, 1e-3);
+}
+
+}  // namespace
+}  // namespace littoral::fv
