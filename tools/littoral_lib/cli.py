@@ -3,7 +3,7 @@
 import argparse
 import sys
 
-from .errors import UserError, nearest
+from .errors import Ended, UserError, end_on_signals, nearest
 
 COMMANDS = ("run", "check", "plot", "surface", "verify", "bench")
 
@@ -108,6 +108,7 @@ def build_parser():
 
 
 def main(argv):
+    end_on_signals()
     try:
         if argv and not argv[0].startswith("-") and argv[0] not in COMMANDS:
             from .errors import unknown
@@ -135,6 +136,6 @@ def main(argv):
     except OSError as problem:
         print(f"littoral: {problem}", file=sys.stderr)
         return 2
-    except KeyboardInterrupt:
-        print("littoral: interrupted", file=sys.stderr)
-        return 130
+    except Ended as signal:
+        print(f"littoral: interrupted ({signal.name})", file=sys.stderr)
+        return signal.status

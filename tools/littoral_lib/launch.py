@@ -8,6 +8,7 @@ import subprocess
 import time
 
 from . import programs
+from .errors import ENDING, Ended
 from .settings import route
 
 OPEN_MPI_OWN = re.compile(r"\[[^\]\s]+:\d+\] ")  # "[node:pid] ...": what its parts say of themselves
@@ -42,19 +43,21 @@ def is_open_mpi():
     return "Open MPI" in text or "OpenRTE" in text
 
 
-Result = collections.namedtuple("Result", "status seconds lines")
+Result = collections.namedtuple("Result", "status seconds lines interrupted")
 
 
 def execute(line, env, on_line=None, timeout=None, cwd=None):
-    """Runs a job; gives each line of its output to `on_line`. Ctrl-C and the timeout end all its processes.
+    """Runs a job; gives each line of its output to `on_line`. Signals (errors.Ended) and the timeout end all its processes.
 
-    Returns status (0: success; 130: interrupted; 124: timeout), wall seconds, and the last lines.
+    Returns status (0: success; 128 + signal; 124: timeout), wall seconds, the last lines, and the Ended or None.
     """
     begin = time.monotonic()
     last = collections.deque(maxlen=2000)
+    mask = signal.pthread_sigmask(signal.SIG_BLOCK, ENDING)  # nothing may come between the job and its try
     job = subprocess.Popen(line, env=env, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                           errors="replace", start_new_session=True, cwd=cwd)
-    expired = []
+                           errors="replace", start_new_session=True, cwd=cwd,
+                           preexec_fn=lambda: signal.pthread_sigmask(signal.SIG_SETMASK, mask))
+    expired, interrupted = [], None
     timer = None
     if timeout:
         import threading
@@ -62,20 +65,22 @@ def execute(line, env, on_line=None, timeout=None, cwd=None):
         timer.daemon = True
         timer.start()
     try:
+        signal.pthread_sigmask(signal.SIG_SETMASK, mask)
         for text in job.stdout:
             last.append(text.rstrip("\n"))
             if on_line:
                 on_line(last[-1])
         status = job.wait()
-    except KeyboardInterrupt:
+    except Ended as signal_caught:
+        interrupted = signal_caught
         end(job)
-        status = 130
+        status = signal_caught.status
     finally:
         if timer:
             timer.cancel()
     if expired:
         status = 124
-    return Result(status, time.monotonic() - begin, list(last))
+    return Result(status, time.monotonic() - begin, list(last), interrupted)
 
 
 def end(job):

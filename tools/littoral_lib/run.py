@@ -90,10 +90,10 @@ def run(scene, out, sph_ranks=1, fv_ranks=1, threads=None, restart=None, restart
            "killed": launch.killed(result.lines, [(p, ranks[p]) for p in scene.programs])}
     try:
         summary = collect.collect(out, scene, job)
-    except OSError as problem:  # a full disk, say: the job's own verdict must not be lost with the summary
+    except (OSError, UserError) as problem:  # a full disk, a bad value: the job's own verdict must not be lost
         print(f"littoral: cannot collect the results: {problem}", file=sys.stderr)
         summary = {"programs": {p: None for p in scene.programs}, **job, "status": job["status"] or 1}
-    summary["lines"] = result.lines
+    summary["lines"], summary["interrupted"] = result.lines, result.interrupted
     return summary
 
 
@@ -107,9 +107,11 @@ def log_tail(out, program, lines=TAIL):
 
 def report_failure(out, summary, stream=sys.stderr):
     """Why a job ended: the end of each program's log, then the job's own last words."""
-    reasons = {130: "interrupted", 124: "ran past its time limit"}
     status = summary["status"]
-    print(f"littoral: the job failed ({reasons.get(status, f'exit status {status}')}) after "
+    reason = "ran past its time limit" if status == 124 else f"exit status {status}"
+    if summary["interrupted"]:
+        reason = f"interrupted by {summary['interrupted'].name}"
+    print(f"littoral: the job failed ({reason}) after "
           f"{summary['wall_seconds']:.1f} s. Everything it printed: {out}/console.log", file=stream)
     for program in summary["programs"]:
         tail = log_tail(out, program)

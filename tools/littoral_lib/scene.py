@@ -88,9 +88,14 @@ class Scene:
                 raise UserError(f"--set scene.{key}: scene.yaml has no such place") from None
 
     def constants(self):
-        values = {}
-        for name, text in (self.data.get("constants") or {}).items():
-            values[name] = evaluate(text, values)
+        values, given = {}, self.data.get("constants") or {}
+        if not isinstance(given, dict):
+            raise UserError(f"constants: expected names with values, found '{given}'")
+        for name, text in given.items():
+            try:
+                values[name] = evaluate(text, values)
+            except UserError as problem:
+                raise UserError(f"constants.{name}: {problem}") from None
         return values
 
     def value(self, dotted, default=None):
@@ -104,14 +109,20 @@ class Scene:
 
     def vector(self, key):
         """Three numbers at a top-level key; zeros where it is absent."""
+        found = self.data.get(key) or (0, 0, 0)
+        if not isinstance(found, (list, tuple)) or len(found) != 3:
+            raise UserError(f"{key}: expected a list of three numbers, found '{found}'")
         constants = self.constants()
-        return [evaluate(v, constants) for v in self.data.get(key) or (0, 0, 0)]
+        return [evaluate(v, constants) for v in found]
 
     def regions(self):
         """The SPH region's boxes as numbers."""
-        constants = self.constants()
-        return [{corner: [evaluate(v, constants) for v in region[corner]] for corner in ("lower", "upper")}
-                for region in self.data.get("regions") or []]
+        constants, given = self.constants(), self.data.get("regions") or []
+        try:
+            return [{corner: [evaluate(v, constants) for v in region[corner]] for corner in ("lower", "upper")}
+                    for region in given]
+        except (KeyError, TypeError):
+            raise UserError(f"regions: expected boxes with lower and upper, found '{given}'") from None
 
     def reference(self):
         """reference.yaml beside the scene, with its formulas evaluated; None if the scene has none."""

@@ -2,7 +2,9 @@
 
 import os
 import pathlib
+import signal
 import stat
+import subprocess
 import sys
 import tempfile
 import time
@@ -12,6 +14,18 @@ import unittest
 import tools_path  # noqa: F401
 from littoral_lib import launch, programs, run
 from littoral_lib.errors import UserError
+
+
+def runs(pid):
+    """Whether a process still runs: one that ended may wait for a while until its parent takes note."""
+    for _ in range(100):
+        try:
+            if pathlib.Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] == "Z":
+                return False
+        except OSError:
+            return False
+        time.sleep(0.05)
+    return True
 
 
 class Jobs(unittest.TestCase):
@@ -66,6 +80,20 @@ class Jobs(unittest.TestCase):
         result = launch.execute(["sh", "-c", "sleep 60 & wait"], dict(os.environ), timeout=0.3)
         self.assertEqual(result.status, 124)
         self.assertLess(time.monotonic() - begin, 10)
+
+    def test_a_signal_ends_the_job_with_its_children(self):
+        for number in (signal.SIGTERM, signal.SIGINT):
+            child = self.folder / "child"
+            script = f"import pathlib, sys\nsys.path.insert(0, {str(pathlib.Path(launch.__file__).parents[1])!r})\n" \
+                     "from littoral_lib import errors, launch\nimport os\nerrors.end_on_signals()\n" \
+                     f"print(launch.execute(['sh', '-c', 'sleep 60 & echo $! > {child}; wait'], dict(os.environ)).status)\n"
+            child.unlink(missing_ok=True)
+            job = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True)
+            while not (child.exists() and child.read_text().strip()):
+                time.sleep(0.02)
+            job.send_signal(number)
+            self.assertEqual(job.communicate(timeout=30)[0].strip(), str(128 + number))
+            self.assertFalse(runs(int(child.read_text())))
 
     def test_output_and_status_come_back(self):
         seen = []

@@ -102,6 +102,8 @@ class Case:
         place = ROOT / scene
         summary = run.run(Scene(place if place.is_dir() else scene, set, solver), out, sph_ranks, fv_ranks, threads, restart, origin, extra,
                           self.bin_dir, quiet=not self.verbose, timeout=timeout or self.timeout)
+        if summary["interrupted"]:
+            raise summary["interrupted"]  # not this run alone: the user wants to go
         finished = Run(out, summary)
         if finished.status != 0 and not may_fail:
             last = launch.own_words(summary["lines"])[-6:]
