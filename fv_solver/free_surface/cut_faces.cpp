@@ -225,7 +225,9 @@ class CutFlux {
     const auto i_ = static_cast<std::ptrdiff_t>(i), a_ = static_cast<std::ptrdiff_t>(a),
                j_ = static_cast<std::ptrdiff_t>(j);
     const double behind = distance<D>(block_, i_, j_) / distance<D>(block_, i_, a_);
-    if (!settled_) stencil = line_stencil(theta, wet_[j] != 0, reach);
+    // a stencil at rest lets the surface cross its limit by half, no further: theta is its denominator
+    if (!settled_ || (stencil == LineStencil::own && theta < 0.5 * reach))
+      stencil = line_stencil(theta, wet_[j] != 0, reach);
     const LineWeights w = line_weights(stencil, theta, behind, at);
     return w.own * p_[i] + w.behind * p_[j] +
            w.surface * surface_pressure<D>(block_, fluid_, k_.mu, phi_, q_, i, a, theta);

@@ -1,0 +1,42 @@
+"""Amplitude, period and volume of a standing wave: still levels in the cell, steepness, curved cells, an overlap."""
+
+import math
+
+from lib import level_set
+
+CURVED = ["fv.blocks[0].mapping.z=z+0.03*sin(2*pi*x)*sin(pi*(z+H)/(H+air))",
+          "fv.blocks[0].mapping.x=x+0.02*sin(2*pi*x)*cos(pi*(z+H)/(H+air))"]
+PERIODS = 3.3  # seven times of largest kinetic energy: three whole periods
+
+
+def check(case):
+    rows = []
+
+    def run(name, n, shift=0.0, amplitude=0.01, scene="configs/wave_tank", extra=(), gates=True):
+        depth = 0.5 + shift / n
+        omega = math.sqrt(9.81 * 2 * math.pi * math.tanh(2 * math.pi * depth))
+        linear = 2 * math.pi / omega
+        nonlinear = linear * (1 + (2 * math.pi * amplitude) ** 2 / 8)  # standing wave to second order, deep water
+        done = case.run(scene, solver="fv", name=name.replace(" ", "_"), set=[
+            f"scene.constants.n={n}", f"scene.constants.H={depth!r}", f"scene.constants.air={0.25 - shift / n!r}",
+            f"scene.constants.amplitude={amplitude}", f"scene.time.end={PERIODS * linear!r}",
+            "scene.time.field_interval=0", *extra])
+        wave = level_set.swing(done.fv.scalars)
+        rows.append([name, n, 100 * wave.amplitude_a_period, 100 * (wave.period / nonlinear - 1), wave.volume,
+                     done.fv.summary["results"]["inner_cycles_per_step"],
+                     done.fv.summary["results"]["microseconds_per_cell_and_step"]])
+        if not gates:
+            return
+        case.metric(f"{name}: amplitude a period - 1", wave.amplitude_a_period, between=(-0.005, 0.005))
+        if amplitude < 0.02:
+            case.metric(f"{name}: period over the nonlinear wave's - 1", wave.period / nonlinear - 1, between=(-1e-3, 1e-3))
+        case.metric(f"{name}: volume of the water, largest change", wave.volume, below=1e-4)
+
+    for shift in (0.0, 0.25, 0.5, 0.75):
+        run(f"still level {shift} in the cell", 128, shift)
+    run("ka = .3", 128, 0.3, amplitude=0.3 / (2 * math.pi))
+    run("curved cells", 128, extra=CURVED)
+    run("across an overlap", 128, scene=case.folder / "overset")
+    run("coarse", 64, 0.3, gates=False)
+    case.table("Standing wave, 170 steps a period", ["", "cells a wavelength", "amplitude a period %", "period %",
+                                                     "volume", "cycles a step", "us a cell and step"], rows)
