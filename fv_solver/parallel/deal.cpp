@@ -136,14 +136,17 @@ std::vector<CutPlanes<D>> cut_planes(const std::vector<Block<D>>& blocks, bool l
     planes.cells = block.extent.n;
     for (std::size_t d = 0; d < D; ++d)
       planes.may[d].assign(static_cast<std::size_t>(block.extent.n[d]) + 1, 1);
-    if (!layers)
+    std::array<bool, D> layered{};  // a wall lies across the direction
+    for (const Window<D>& w : block.windows)
+      if (w.condition == Condition::wall) layered[static_cast<std::size_t>(w.direction)] = !layers;
+    if (layered != std::array<bool, D>{})
       for_each_index<D>({}, block.extent.n, [&](const std::array<int, D>& index) {
         const auto c = static_cast<std::size_t>(block.extent.at(index));
         std::array<double, D> h;
         for (std::size_t d = 0; d < D; ++d) h[d] = thickness<D>(block, d, c);
         const double widest = *std::max_element(h.begin(), h.end());
         for (std::size_t d = 0; d < D; ++d) {
-          if (k_thin * h[d] >= widest) continue;
+          if (!layered[d] || k_thin * h[d] >= widest) continue;
           planes.may[d][static_cast<std::size_t>(index[d])] = 0;
           planes.may[d][static_cast<std::size_t>(index[d]) + 1] = 0;
         }

@@ -28,8 +28,8 @@ struct CutPlanes {
   std::array<std::vector<std::uint8_t>, D> may;  // [direction][i]: between cells i - 1 and i
 };
 
-/// Planes of the blocks that do not cut thin cells: lines through a layer at a wall are solved as a whole
-/// only within a block (implicit/README.md). layers: cut those, too
+/// Planes of the blocks that do not cut the thin cells between walls: lines through a layer are solved as a
+/// whole only within a block (implicit/README.md). layers: cut those, too
 template <int D>
 std::vector<CutPlanes<D>> cut_planes(const std::vector<Block<D>>& blocks, bool layers);
 

@@ -61,10 +61,12 @@ TEST(DealTest, ACutKeepsHalvingsAndSmallFaces) {
 }
 
 TEST(DealTest, LayersAreNotCut) {
-  const Block<2> thin = make_block<2>("thin", {16, 64}, {}, [](const std::array<int, 2>& i) {
+  Block<2> thin = make_block<2>("thin", {16, 64}, {}, [](const std::array<int, 2>& i) {
     const double s = i[1] / 64.0;
     return std::array<double, 2>{i[0] / 16.0, std::expm1(6.0 * s) / std::expm1(6.0)};
   });
+  EXPECT_TRUE(cut_planes<2>({thin}, false)[0].may[1][8]);  // thin, but at no wall
+  close_with<2>(thin, Condition::wall);
   for (const bool layers : {false, true}) {
     const auto planes = cut_planes<2>({thin}, layers);
     EXPECT_EQ(planes[0].may[1][8] != 0, layers);  // h/64 of the width

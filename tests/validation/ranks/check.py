@@ -5,7 +5,7 @@ import numpy as np
 INJECT = ["scene.constants.n=16", "scene.time.max_windows=320", "scene.time.field_interval=0"]
 SET = ["scene.constants.n=25", "scene.time.max_windows=100", "scene.time.field_interval=0"]
 
-CYLINDER = ["scene.time.max_windows=20", "scene.time.field_interval=0", "fv.dual_time.drop=1e-9"]
+CYLINDER = ["scene.time.max_windows=20", "scene.time.field_interval=0", "fv.dual_time.drop=1e-9", "fv.dual_time.floor=1e-13"]
 
 
 def difference(one, two):
