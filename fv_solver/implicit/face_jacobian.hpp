@@ -18,6 +18,10 @@ struct CorrectionPhysics {
   WaveSpeeds speeds;
   BackwardDifference time;
   double forcing_psi = 0.0;  // [s^2/m^2] d rho/d p in the mass row's forcing
+  double jump = 1.0;         // [-] of a level: part of the pressure's first-order jump in the mass flux (I8)
+
+  /// Between cells. In front of a known pressure the jump is whole in the residual, too: `speeds` there.
+  WaveSpeeds speeds_between_cells() const { return {speeds.c0, speeds.kappa / jump}; }
 };
 
 /// T: a number, or one in each lane.
@@ -37,7 +41,7 @@ struct FaceState {
 /// Derivatives of the first-order flux through a face by the states on its two sides, scaled:
 /// unknowns (p / (rho0 c0), u), rows (mass c0 / rho0, momentum / rho0), so that the entries compare.
 ///
-///   m = rho [ (u_L + u_R).S / 2 - S (p_R - p_L) / (2 rho c_p) ]
+///   m = rho [ (u_L + u_R).S / 2 - S (p_R - p_L) / (2 rho c_p) ],   c_p = max(c0, kappa h / (jump dt))
 ///   F = m u_upwind + S (p_L + p_R)/2 - S rho c0 (u_R - u_L).n / 2
 ///       - rho nu/V_f [S^2 (u_R - u_L) + S (u_R - u_L).S]
 /// The last bracket is the full stress's compact part: friction along the face's normal counts twice. With
@@ -59,7 +63,7 @@ inline void face_jacobian(const Area& area, const T& volume, const FaceState<D, 
   const double c0 = physics.speeds.c0;
   const double density_by_p = c0 * physics.fluid.inverse_c2;  // d(rho/rho0)/dP
   const T h = volume / s;
-  const T pressure_term = 0.5 * c0 * s / physics.speeds.mass(h, physics.time.dt);
+  const T pressure_term = 0.5 * c0 * s / physics.speeds_between_cells().mass(h, physics.time.dt);
   const T zero{};
   const T out = flow > 0.0 ? flow : zero, in = flow > 0.0 ? zero : flow;
 

@@ -174,10 +174,12 @@ void Multigrid<D, Real>::build(const std::vector<const State<D>*>& states,
   for (std::size_t l = 0; l < levels_.size(); ++l) {
     const bool coarsest = l + 1 == levels_.size();
     const double anchor = coarsest && closed() && physics.fluid.inverse_c2 == 0.0 ? k_anchor : 0.0;
+    CorrectionPhysics<D> here = physics;
+    here.jump = options_.jump[std::min(l, options_.jump.size() - 1)];
     for (std::size_t i = 0; i < levels_[l]->blocks.size(); ++i) {
       BlockLevel& block = levels_[l]->blocks[i];
       const State<D>& state = l == 0 ? *states[i] : block.state;
-      for (auto& op : block.operators) op.build(block.grid, state, physics, anchor);
+      for (auto& op : block.operators) op.build(block.grid, state, here, anchor);
       if (coarsest) continue;
       BlockLevel& next = levels_[l + 1]->blocks[i];
       average_state<D>(block.grid, block.ratio, state, next.grid, next.state);

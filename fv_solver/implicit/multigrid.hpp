@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -15,6 +16,9 @@ struct MultigridOptions {
   int pre_sweeps = 1;
   int post_sweeps = 1;      // essential: without post-smoothing the cycle does not pay
   int coarsest_sweeps = 8;  // there and back each; of joined blocks twice as many
+  /// Part of the pressure's first-order jump (I8) on the finest level, the next one, and all below. 1: the
+  /// exact first-order Jacobian on all levels.
+  std::array<double, 3> jump = {0.6, 0.35, 0.5};
 };
 
 /// Linear multigrid for the first-order Jacobian of one or several blocks: V-cycles with zebra line sweeps,

@@ -5,6 +5,13 @@
 namespace littoral::fv {
 namespace {
 
+/// The cycle as a solver of the first-order Jacobian itself, all its levels alike.
+MultigridOptions first_order() {
+  MultigridOptions options;
+  options.jump.fill(1.0);
+  return options;
+}
+
 /// Mean reduction of the residual a V(1,1) cycle, over `cycles` cycles from random data.
 template <int D>
 double convergence_factor(const Block<D>& block, const CorrectionPhysics<D>& physics, EdgeCondition upper,
@@ -14,7 +21,7 @@ double convergence_factor(const Block<D>& block, const CorrectionPhysics<D>& phy
   State<D> q = test::smooth_state(block, speed);
   fill_periodic(grid, q.p);
   for (auto& f : q.u) fill_periodic(grid, f);
-  Multigrid<D, double> multigrid({grid}, {});
+  Multigrid<D, double> multigrid({grid}, first_order());
   multigrid.build({&q}, physics);
   test::randomise(grid, multigrid.right_side(0));
   Correction<D, double> r;
@@ -74,7 +81,7 @@ TEST(ImplicitMultigridTest, ClosedIncompressibleBoxIsSolvableUpToItsPressureLeve
   LevelGrid<2> grid = level_grid(block);
   test::set_all_edges(grid, EdgeCondition::wall, EdgeCondition::wall);
   const State<2> q = test::smooth_state(block, 0.0);
-  Multigrid<2, double> multigrid({grid}, {});
+  Multigrid<2, double> multigrid({grid}, first_order());
   EXPECT_TRUE(multigrid.closed());
   multigrid.build({&q}, test::physics<2>(0.02, 0.0, 1e-2));
   auto& b = multigrid.right_side(0);
@@ -103,7 +110,7 @@ TEST(ImplicitMultigridTest, CycleConvergesToTheDenseSolution) {
           j == 5 ? CellStatus::fringe : CellStatus::blanked;
   const State<2> q = test::smooth_state(block, 1.0);
   const auto physics = test::physics<2>(0.02, 0.1, 1e-3);
-  Multigrid<2, double> multigrid({grid}, {});
+  Multigrid<2, double> multigrid({grid}, first_order());
   multigrid.build({&q}, physics);
   auto& b = multigrid.right_side(0);
   test::randomise(grid, b);
@@ -149,7 +156,7 @@ TEST(ImplicitMultigridTest, ForcedCellsCostNothing) {
       State<2> q = test::smooth_state(block, 1.0);
       fill_periodic(grid, q.p);
       for (auto& f : q.u) fill_periodic(grid, f);
-      Multigrid<2, double> multigrid({grid}, {});
+      Multigrid<2, double> multigrid({grid}, first_order());
       multigrid.build({&q}, physics, {&rate});
       test::randomise(grid, multigrid.right_side(0));
       Correction<2, double> r;

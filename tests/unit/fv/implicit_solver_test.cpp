@@ -135,7 +135,7 @@ TEST(ImplicitSolverTest, StandingWaveColumnConvergesInFewCycles) {
   for (const double aspect : {1.0, 5.0})
     for (const int m : {1, 10}) {
       const Outcome o = run_column<2>({50, 25}, aspect, m * 0.15 * dx, 8, 10.0);
-      EXPECT_LE(o.mean_cycles, 8.0) << "aspect " << aspect << " M " << m;
+      EXPECT_LE(o.mean_cycles, m == 1 ? 5.0 : 8.0) << "aspect " << aspect << " M " << m;
       EXPECT_LT(o.error, 0.02) << "aspect " << aspect << " M " << m;  // the exact wave is linear, ka = .16
     }
 }
@@ -144,7 +144,7 @@ TEST(ImplicitSolverTest, ThreeDimensionsConvergeAsTwo) {
   const double dx = 2.0 / 20;
   for (const int m : {1, 10}) {
     const Outcome o = run_column<3>({20, 6, 12}, 2.0, m * 0.15 * dx, 6, 10.0);
-    EXPECT_LE(o.mean_cycles, 8.0) << "M " << m;
+    EXPECT_LE(o.mean_cycles, m == 1 ? 5.5 : 8.0) << "M " << m;
     EXPECT_LT(o.error, 0.03) << "M " << m;
   }
 }
@@ -179,7 +179,7 @@ TEST(ImplicitSolverTest, ThinCellsAtAWallConvergeAsOthers) {
     EXPECT_TRUE(report.converged);
     if (step >= settled) cycles += static_cast<double>(report.cycles) / (steps - settled);
   }
-  EXPECT_LE(cycles, 6.0);
+  EXPECT_LE(cycles, 5.0);  // 5.9 with the first-order jump of pressure on all levels
 }
 
 }  // namespace
