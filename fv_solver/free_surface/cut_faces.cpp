@@ -265,11 +265,22 @@ class CutFlux {
     for (std::size_t k = 0; k < D; ++k) momentum[k] = from_l * u_l[k] + from_r * u_r[k] + p_face * area[k];
   }
 
+  bool alone(std::size_t c) const {
+    for (std::size_t d = 0; d < D; ++d) {
+      const auto s = static_cast<std::size_t>(block_.extent.stride[d]);
+      if (wet_[c - s] != 0 || wet_[c + s] != 0) return false;
+    }
+    return true;
+  }
+
   /// l: the water's side
   void free(const LineCells<D>& l, const std::array<double, D>& area, LineStencil& stencil, double& mass,
             std::array<double, D>& momentum) const {
     const double at = face_at(l.near, l.across);
-    const double p_face = continued(l.near, l.across, l.behind, at, at, stencil);
+    // all around a cell of water alone p = p0: it falls with g, whatever part of the cell it fills
+    const double p_face = alone(l.near)
+                              ? surface_pressure<D>(block_, fluid_, 0.0, phi_, q_, l.near, l.across, at)
+                              : continued(l.near, l.across, l.behind, at, at, stencil);
     const std::array<double, D> u = velocity(l);
     double flow = 0.0;
     for (std::size_t k = 0; k < D; ++k) flow += u[k] * area[k];
