@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <optional>
 #include <set>
 
 #include "boundary/links.hpp"
@@ -110,6 +111,67 @@ void check_apart(const std::vector<Block<D>>& blocks) {
     }
 }
 
+namespace {
+
+/// A place in the part of the domain between two ends along an axis where there is water, but no particles.
+std::optional<coupler::Vec3> water_between(const support::Scene& scene, std::size_t axis, double lower,
+                                           double upper) {
+  constexpr int k_points = 16;
+  std::array<int, 3> n;
+  for (std::size_t d = 0; d < 3; ++d) n[d] = scene.active(d) ? k_points : 1;
+  std::optional<coupler::Vec3> found;
+  for_each_index<3>({}, n, [&](const std::array<int, 3>& index) {
+    if (found) return;
+    coupler::Vec3 x{};
+    for (std::size_t d = 0; d < 3; ++d) {
+      if (!scene.active(d)) continue;
+      const double from = d == axis ? lower : scene.domain.lower[d];
+      const double to = d == axis ? upper : scene.domain.upper[d];
+      x[d] = from + (index[d] + 0.5) / k_points * (to - from);
+    }
+    if (scene.initial.surface && !((*scene.initial.surface)(x[0], x[1], x[2], 0.0) < 0.0)) return;
+    for (const support::Scene::Region& region : scene.regions) {
+      bool inside = scene.has_region();
+      for (std::size_t d = 0; d < 3; ++d)
+        inside = inside && (!scene.active(d) || (x[d] >= region.lower[d] && x[d] <= region.upper[d]));
+      if (inside) return;
+    }
+    found = x;
+  });
+  return found;
+}
+
+}  // namespace
+
+template <int D>
+std::vector<std::string> check_covered(const std::vector<Block<D>>& blocks, const support::Scene& scene) {
+  // of the domain's extent: nodes come from files, too; a ring's polygon stays inside its circle
+  const double tolerance = scene.has_region() ? 1e-6 : 1e-2;
+  const coupler::Box grid = bounds<D>(blocks);
+  std::vector<std::string> gaps;
+  for (std::size_t a = 0; a < 3; ++a)
+    for (int side = 0; side < 2; ++side) {
+      if (!scene.active(a)) continue;
+      const double end = side == 0 ? scene.domain.lower[a] : scene.domain.upper[a];
+      const double reached = side == 0 ? grid.lower[a] : grid.upper[a];
+      const double gap = side == 0 ? reached - end : end - reached;
+      if (!(gap > tolerance * (scene.domain.upper[a] - scene.domain.lower[a]))) continue;
+      const auto x = water_between(scene, a, std::min(end, reached), std::max(end, reached));
+      if (!x) continue;
+      char text[400];
+      std::snprintf(
+          text, sizeof text,
+          "the domain %s at %c = %.6g m, the grid at %.6g m: nobody computes the water between, as at "
+          "(%.6g, %.6g, %.6g) m; let the grid reach the domain's side, or the domain end with the grid",
+          side == 0 ? "begins" : "ends", "xyz"[a], end, reached, (*x)[0], (*x)[1], (*x)[2]);
+      gaps.emplace_back(text);
+    }
+  if (gaps.empty() || !scene.has_region()) return gaps;
+  std::string problems;
+  for (const std::string& gap : gaps) problems += (problems.empty() ? "" : "\n") + gap;
+  throw ConfigError(problems);
+}
+
 template <int D>
 void check_blocks(const std::vector<Block<D>>& blocks, const support::Scene& scene, bool level_set) {
   for (const Block<D>& block : blocks) {
@@ -120,6 +182,8 @@ void check_blocks(const std::vector<Block<D>>& blocks, const support::Scene& sce
 
 template void check_apart<2>(const std::vector<Block<2>>&);
 template void check_apart<3>(const std::vector<Block<3>>&);
+template std::vector<std::string> check_covered<2>(const std::vector<Block<2>>&, const support::Scene&);
+template std::vector<std::string> check_covered<3>(const std::vector<Block<3>>&, const support::Scene&);
 template void check_blocks<2>(const std::vector<Block<2>>&, const support::Scene&, bool);
 template void check_blocks<3>(const std::vector<Block<3>>&, const support::Scene&, bool);
 

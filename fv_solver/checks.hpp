@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "grid/block.hpp"
@@ -13,6 +14,13 @@ void check_scene(const support::Scene& scene);
 /// Of all blocks. throws ConfigError where two meet, but nothing passes from one to the other
 template <int D>
 void check_apart(const std::vector<Block<D>>& blocks);
+
+/// Of all blocks: water of the domain beyond the grid's outermost nodes that no region of the particles
+/// holds, looked for on a lattice. Returns a sentence for each such side of the domain, where the grid is
+/// alone (the domain then only says what closes the flow). throws ConfigError beside particles: their water
+/// would lack what is beyond
+template <int D>
+std::vector<std::string> check_covered(const std::vector<Block<D>>& blocks, const support::Scene& scene);
 
 /// Of the blocks as they are about to be solved, the SPH region carved out of them. level_set: a free surface
 /// in them is computed

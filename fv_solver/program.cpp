@@ -14,6 +14,7 @@
 #include "littoral/support/options.hpp"
 #include "littoral/support/partner_choice.hpp"
 #include "littoral/support/run_plan.hpp"
+#include "littoral/support/scene_warnings.hpp"
 #include "setup.hpp"
 #include "solver.hpp"
 #include "version.hpp"
@@ -113,6 +114,8 @@ int run(coupler::Job& job, int argc, char** argv) {
                                               : check_run<3>(job, config, scene, notes);
     if (!speaks) return 0;
     for (const std::string& note : notes) std::printf("fv_solver: %s\n", note.c_str());
+    for (const std::string& warning : support::scene_warnings(scene))
+      std::printf("fv_solver: warning: %s\n", warning.c_str());
     std::printf("fv_solver: %s: no problem found; %.0f cells\n", options.config.c_str(), cells);
     return 0;
   }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "boundary/ghosts.hpp"
+#include "boundary/prescribed.hpp"
 #include "checks.hpp"
 #include "dual_time/plain.hpp"
 #include "dual_time/prescribed.hpp"
@@ -31,10 +32,6 @@ Fluid<D> fluid_of(const support::Scene& scene) {
   fluid.inverse_c2 = 1.0 / (scene.fluid.sound_speed * scene.fluid.sound_speed);  // 0 where c is infinite
   for (std::size_t k = 0; k < D; ++k) fluid.gravity[k] = scene.gravity[axis_in_space<D>(k)];
   return fluid;
-}
-
-Prescribed prescribed(const support::Formula& formula) {
-  return [f = formula](const std::array<double, 3>& x, double t) { return f(x[0], x[1], x[2], t); };
 }
 
 /// The scene's initial formulas, at any time.
@@ -75,9 +72,12 @@ std::vector<Sponge<D>> sponges_of(const FvConfig& config, const support::Scene& 
     Sponge<D> sponge{s.axis, s.centre, s.from, s.to, s.rate, s.power, {}, {}};
     if (D == 2) sponge.centre[1] = 0.0;
     const std::array<const std::optional<support::Formula>*, 3> formulas = {&s.u, &s.v, &s.w};
-    for (std::size_t k = 0; k < D; ++k)
-      if (const auto& formula = *formulas[axis_in_space<D>(k)]) sponge.velocity[k] = prescribed(*formula);
-    if (s.surface) sponge.surface = prescribed(*s.surface);
+    const std::string at = "sponges[" + std::to_string(sponges.size()) + "].";
+    for (std::size_t k = 0; k < D; ++k) {
+      const std::size_t axis = axis_in_space<D>(k);
+      if (const auto& formula = *formulas[axis]) sponge.velocity[k] = prescribed(*formula, at + "uvw"[axis]);
+    }
+    if (s.surface) sponge.surface = prescribed(*s.surface, at + "surface");
     sponges.push_back(std::move(sponge));
   }
   return sponges;
@@ -203,6 +203,7 @@ Stepper<D> make_stepper(const FvConfig& config, const support::Scene& scene, std
   Grid<D> grid = build_grid<D>(config, scene);
   check_apart<D>(grid.blocks);
   std::vector<std::string> told = grid.notes;
+  for (std::string& gap : check_covered<D>(grid.blocks, scene)) told.push_back("warning: " + std::move(gap));
   OwnPart<D> own = own_part<D>(std::move(grid), config, ranks, told);
   if (notes != nullptr) *notes = std::move(told);
   Equations<D> equations;
@@ -221,22 +222,26 @@ Stepper<D> make_stepper(const FvConfig& config, const support::Scene& scene, std
                      step_solver_of<D>(config, scene), tolerance);
   stepper.initialise(initial_flow<D>(scene), 0.0);
   if (scene.has_free_surface() && !scene.has_region()) {
-    const Prescribed surface = prescribed(*scene.initial.surface);
+    const Prescribed surface = prescribed(*scene.initial.surface, "initial.surface");
     if (ranks.any(meets_air<D>(stepper.blocks(), surface))) stepper.set_surface(surface, config.level_set);
   }
   const auto& source = config.source;
-  if (source.mass || source.u || source.v || source.w)
-    stepper.set_source([source](const std::array<double, D>& at, double t) {
+  if (source.mass || source.u || source.v || source.w) {
+    const auto given = [](const std::optional<support::Formula>& f, const char* key) {
+      return prescribed(f.value_or(support::Formula()), key);
+    };
+    const Prescribed mass = given(source.mass, "source.mass");
+    const std::array<Prescribed, 3> components = {given(source.u, "source.u"), given(source.v, "source.v"),
+                                                  given(source.w, "source.w")};
+    stepper.set_source([mass, components](const std::array<double, D>& at, double t) {
       const coupler::Vec3 x = vector_in_space<D>(at);
-      const auto value = [&](const std::optional<support::Formula>& f) {
-        return f ? (*f)(x[0], x[1], x[2], t) : 0.0;
-      };
-      const coupler::Vec3 force = {value(source.u), value(source.v), value(source.w)};
+      const coupler::Vec3 force = {components[0](x, t), components[1](x, t), components[2](x, t)};
       Source<D> s;
-      s.mass = value(source.mass);
+      s.mass = mass(x, t);
       for (std::size_t k = 0; k < D; ++k) s.momentum[k] = force[axis_in_space<D>(k)];
       return s;
     });
+  }
   if (!config.sponges.empty()) stepper.set_sponges(sponges_of<D>(config, scene));
   return stepper;
 }

@@ -13,6 +13,7 @@
 #include "littoral/coupler/job.hpp"
 #include "littoral/error.hpp"
 #include "littoral/support/due.hpp"
+#include "littoral/support/scene_warnings.hpp"
 #include "setup.hpp"
 #include "version.hpp"
 
@@ -80,6 +81,7 @@ void Solver<D>::run(Companion<D>& companion) {
                    layout.whole.size(), ranks_.size(), omp_get_max_threads(),
                    companion.description().c_str()));
   for (const std::string& note : grid_notes_) log_.info(note);
+  for (const std::string& warning : support::scene_warnings(scene_)) log_.warn(warning);
   if (!restarted_) output_->first(stepper_, companion.waited());
 
   std::string reason = "end time reached";

@@ -12,6 +12,7 @@
 #include "littoral/support/options.hpp"
 #include "littoral/support/partner_choice.hpp"
 #include "littoral/support/run_plan.hpp"
+#include "littoral/support/scene_warnings.hpp"
 #include "prediction.hpp"
 #include "solver.hpp"
 
@@ -81,7 +82,10 @@ int run_program(coupler::Job& job, int argc, char** argv) {
   }
   if (options.check) {
     const std::string prediction = predict(config, coupled).text();
-    if (speaks) std::cout << options.config << ": no problem found\n" << prediction;
+    if (!speaks) return 0;
+    for (const std::string& warning : support::scene_warnings(config.scene))
+      std::cout << "sph_solver: warning: " << warning << "\n";
+    std::cout << options.config << ": no problem found\n" << prediction;
     return 0;
   }
   if (job.size() > 1 && !(options.record.empty() && options.replay.empty()))
@@ -95,6 +99,7 @@ int run_program(coupler::Job& job, int argc, char** argv) {
     write_text(folder + "/config.yaml", resolved_text(config));
   }
   support::Log log("sph", job.rank(), speaks ? folder + "/log.txt" : "");
+  for (const std::string& warning : support::scene_warnings(config.scene)) log.warn(warning);
   config.scene.dimension == 2 ? run<2>(job, options, config, folder, log)
                               : run<3>(job, options, config, folder, log);
   return 0;

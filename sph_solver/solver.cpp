@@ -173,12 +173,12 @@ coupler::Agreement Solver<D>::agree() {
   mine.checkpoint = support::due(last_checkpoint_, next, end.checkpoint_interval);
   if (time_ >= end.end * (1.0 - 1e-12))
     mine.stop = true, mine.reason = "the end of the scene's time is reached";
+  divide_anew_ = ranks_ && partner_ && ranks_->unbalanced(particles_, config_.sph.load_drift);
+  mine.region_changed = divide_anew_;
+  if (partner_) return partner_->agree(mine);  // which also counts time.max_windows
   const std::int64_t first_window = restart_ ? restart_->window : 0;
   if (end.max_windows >= 0 && window_ >= first_window + end.max_windows)
     mine.stop = true, mine.reason = "time.max_windows is reached";
-  divide_anew_ = ranks_ && partner_ && ranks_->unbalanced(particles_, config_.sph.load_drift);
-  mine.region_changed = divide_anew_;
-  if (partner_) return partner_->agree(mine);
   if (mine.stop) {
     coupler::Agreement last;
     last.stop = true;

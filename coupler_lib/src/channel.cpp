@@ -89,9 +89,24 @@ void Channel::start_send(int rank, const Outgoing& outgoing) {
 void Channel::complete_sends(const Expected& what) {
   if (outbox_.empty()) return;
   Wait wait(*this);
-  while (!outbox_.progress()) {
-    if (outbox_.moving() && !wait.patience.expired()) continue;  // bytes are moving: they need us
-    if (!wait.go_on()) give_up("its reception of " + describe(what), outbox_.ranks(), deadline_);
+  try {
+    while (!outbox_.progress()) {
+      if (outbox_.moving() && !wait.patience.expired()) continue;  // bytes are moving: they need us
+      if (!wait.go_on()) give_up("its reception of " + describe(what), outbox_.ranks(), deadline_);
+    }
+  } catch (const CouplingError&) {
+    settle();
+    throw;
+  }
+}
+
+void Channel::settle(Incoming* messages, std::size_t n) {
+  Patience patience(1.0);  // no memory may go away while MPI still writes into it, or reads from it
+  for (;;) {
+    bool all = outbox_.settled();
+    for (std::size_t i = 0; i < n; ++i) all = messages[i].settled() && all;
+    if (all || patience.expired()) return;
+    patience.pause();
   }
 }
 
@@ -120,9 +135,7 @@ void Channel::receive(const std::vector<int>& ranks, const std::vector<Expected>
       give_up(describe(expected[static_cast<std::size_t>(first)]), silent, deadline_);
     }
   } catch (const CouplingError&) {
-    Patience patience(1.0);  // no memory may go away while MPI still writes into it
-    while (!std::all_of(begin, end, [](Incoming& m) { return m.settled(); }) && !patience.expired())
-      patience.pause();
+    settle(messages.data(), n);
     throw;
   }
 }

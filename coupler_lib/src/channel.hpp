@@ -49,6 +49,8 @@ class Channel {
  private:
   struct Wait;
   void look_for_notice();
+  /// Before an error leaves: gives MPI a second to let go of the memory of what is under way.
+  void settle(Incoming* messages = nullptr, std::size_t n = 0);
   void refuse_too_long(int rank, std::size_t bytes) const;
   [[noreturn]] void give_up(const std::string& awaited, const std::vector<int>& silent, double seconds) const;
 

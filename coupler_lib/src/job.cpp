@@ -44,6 +44,14 @@ Greeting greeting_of(Role role, const std::string& program, const std::string& v
   return greeting;
 }
 
+Contract unpack_contract(const Bytes& message, const std::string& who) {
+  try {
+    return Contract::unpack(message.data() + sizeof(Header), message.size() - sizeof(Header));
+  } catch (const CouplingError& problem) {
+    throw CouplingError(who + " sent a bad " + problem.what());
+  }
+}
+
 std::vector<Greeting> greet(const Greeting& mine) {
   int size = 1;
   MPI_Comm_size(MPI_COMM_WORLD, &size);
@@ -174,7 +182,7 @@ void Job::compare(const Contract& mine, double deadline) const {
     channel.start_send(0, out);
     channel.receive(0, what, in);
     channel.complete_sends(what);
-    const Contract theirs = Contract::unpack(in.data() + sizeof(Header), in.size() - sizeof(Header));
+    const Contract theirs = unpack_contract(in, channel.who(0));
     const auto mismatches = mine.compare(theirs);
     out.resize(sizeof(Header));  // nobody ends the job before both have compared
     seal(out, what, mismatches.size());

@@ -46,6 +46,16 @@ bool Outbox::progress() {
   return all;
 }
 
+bool Outbox::settled() {
+  bool all = true;
+  for (auto& parcel : parcels_) {
+    int yes = 0;
+    MPI_Testall(static_cast<int>(parcel.requests.size()), parcel.requests.data(), &yes, MPI_STATUSES_IGNORE);
+    all = yes && all;
+  }
+  return all;
+}
+
 bool Outbox::moving() const {
   return std::any_of(parcels_.begin(), parcels_.end(),
                      [](const Parcel& parcel) { return !parcel.gone && parcel.rest.empty(); });

@@ -20,6 +20,8 @@ class Outbox {
   /// Does what can be done now; true when everything is gone.
   bool progress();
   bool empty() const { return parcels_.empty(); }
+  /// Before an error leaves: true when MPI no longer reads from our memory. Starts nothing.
+  bool settled();
   bool moving() const;             ///< bytes of a long message are on their way
   std::vector<int> ranks() const;  ///< of those not yet gone
 

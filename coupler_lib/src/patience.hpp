@@ -6,9 +6,9 @@
 
 namespace littoral::coupler {
 
-/// How to wait without burning a core: a short spin for a partner that is about to answer, then sleeps that
-/// grow with the time already waited (a twentieth of it, so that the answer is seen at most 5% late), up to
-/// half a millisecond.
+/// How to wait without burning a core: a spin of a millisecond for a partner that is about to answer, then
+/// sleeps that grow with the time already waited (a twentieth of it, so that the answer is seen at most 5%
+/// late), up to a millisecond.
 class Patience {
  public:
   explicit Patience(double deadline);

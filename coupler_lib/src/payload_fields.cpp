@@ -196,7 +196,8 @@ std::size_t pack(Bytes& message, const ParticleStates& states, const Box& box) {
 
 void unpack(const char* bytes, std::size_t count, const std::string& who, std::size_t n,
             ParticleStates& states) {
-  ByteReader reader(bytes, count, "particles");
+  const std::string what = who + " sent particles";
+  ByteReader reader(bytes, count, what.c_str());
   if (n > count) reader.refuse("more particles announced than sent");
   const auto column = [&](const char* field, std::vector<double>& target) {
     const std::size_t offset = target.size();

@@ -2,19 +2,13 @@
 
 #include "boundary/ghosts.hpp"
 #include "boundary/line.hpp"
+#include "grid/between.hpp"
 #include "grid/loops.hpp"
 #include "grid/small_matrix.hpp"
 #include "grid/space.hpp"
 
 namespace littoral::fv {
 namespace {
-
-template <int D>
-SpaceVector<D> between(const Block<D>& block, std::size_t from, std::size_t to) {
-  SpaceVector<D> r;
-  for (std::size_t k = 0; k < D; ++k) r[k] = block.centre[k][to] - block.centre[k][from];
-  return r;
-}
 
 /// Continues a field linearly from the first inner cell to a ghost: exact for linear fields on any grid. The
 /// gradient is one-sided along the line; across it central where there are cells on both sides (in this block

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "boundary/prescribed.hpp"
 #include "grid/loops.hpp"
 #include "grid/space.hpp"
 #include "littoral/error.hpp"
@@ -119,18 +120,19 @@ Window<D> window_of(const FaceConfig& face, const Closing<D>& closing, const sup
   w.direction = static_cast<int>(d);
   w.side = static_cast<int>(side);
   w.wave_speed = face.wave_speed;
+  const std::string face_at = "face '" + w.name + "', ";
+  const std::array<const char*, 3> k_velocity = {"u", "v", "w"};
   const std::array<const std::optional<support::Formula>*, 3> velocity = {&face.u, &face.v, &face.w};
   for (std::size_t k = 0; k < D; ++k) {
-    const auto& formula = *velocity[axis_in_space<D>(k)];
-    if (formula)
-      w.velocity[k] = [f = *formula](const std::array<double, 3>& x, double t) {
-        return f(x[0], x[1], x[2], t);
-      };
+    const std::size_t axis = axis_in_space<D>(k);
+    if (const auto& formula = *velocity[axis])
+      w.velocity[k] = prescribed(*formula, face_at + k_velocity[axis]);
   }
-  if (face.p)
-    w.pressure = [f = *face.p](const std::array<double, 3>& x, double t) { return f(x[0], x[1], x[2], t); };
-  if (const auto& surface = face.surface ? face.surface : scene.initial.surface)
-    w.surface = [f = *surface](const std::array<double, 3>& x, double t) { return f(x[0], x[1], x[2], t); };
+  if (face.p) w.pressure = prescribed(*face.p, face_at + "p");
+  if (face.surface)
+    w.surface = prescribed(*face.surface, face_at + "surface");
+  else if (scene.initial.surface)
+    w.surface = prescribed(*scene.initial.surface, face_at + "initial.surface");
   return w;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/between.hpp"
 #include "grid/loops.hpp"
 
 namespace littoral::fv {
@@ -23,14 +24,6 @@ void for_each_neighbour(const Block<D>& block, const Band<D>& band, std::size_t 
     for (std::size_t d = 0; d < D; ++d) other += step[d] * block.extent.stride[d];
     if (other != c && band.stands_for_cell(b, other)) body(other);
   });
-}
-
-template <int D>
-SpaceVector<D> between(const Block<D>& block, std::ptrdiff_t from, std::ptrdiff_t to) {
-  SpaceVector<D> r;
-  for (std::size_t k = 0; k < D; ++k)
-    r[k] = block.centre[k][static_cast<std::size_t>(to)] - block.centre[k][static_cast<std::size_t>(from)];
-  return r;
 }
 
 /// Inverse of a symmetric matrix of least squares. degenerate: there are directions in which no neighbour

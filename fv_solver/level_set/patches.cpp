@@ -4,19 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "grid/between.hpp"
 #include "grid/loops.hpp"
 #include "level_set/taylor.hpp"
 
 namespace littoral::fv {
 namespace {
-
-template <int D>
-SpaceVector<D> between(const Block<D>& block, std::ptrdiff_t from, std::ptrdiff_t to) {
-  SpaceVector<D> r;
-  for (std::size_t k = 0; k < D; ++k)
-    r[k] = block.centre[k][static_cast<std::size_t>(to)] - block.centre[k][static_cast<std::size_t>(from)];
-  return r;
-}
 
 /// Length of a cell's diagonal, from the centres around it [m].
 template <int D>

@@ -73,14 +73,17 @@ def split_config(text):
 
 
 def check(scene, bin_dir=None):
-    """All problems of a scene as sentences, and the predictions as lines."""
-    problems, configs = [], {}
+    """All problems of a scene as sentences, and the warnings and predictions as lines."""
+    problems, warnings, configs = [], [], {}
     for program in scene.programs:
         status, output, errors = ask(program, scene, "--check", bin_dir)
         if status != 0:
             said = [text for text in (errors or output).splitlines() if text.strip()]
             problems += [f"{program}: {text}" for text in said] or [f"{program}: --check ended with status {status}"]
             continue
+        for text in re.findall(r"(?m)^\w+: (warning: .*)$", output):  # of the scene both programs say the same
+            if text not in warnings:
+                warnings.append(text)
         counted = re.search(r"no problem found; (\d+) cells", output)  # of all blocks, however they are made
         if counted:
             configs[program, "cells"] = int(counted.group(1))
@@ -99,7 +102,7 @@ def check(scene, bin_dir=None):
             predictions = estimate.predict(scene, configs)
         except (UserError, KeyError, TypeError, ValueError) as reason:
             predictions = [f"no prediction: {reason}"]
-    return problems, predictions
+    return problems, warnings + predictions
 
 
 def command(args):

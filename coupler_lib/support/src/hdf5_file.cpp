@@ -72,9 +72,11 @@ void Hdf5Image::put_text(const std::string& dataset, const std::string& text) {
 
 const void* Hdf5Image::bytes(std::size_t& count) {
   void** memory = nullptr;
-  hsize_t size = 0;
-  const bool good = H5Fflush(*file_, H5F_SCOPE_GLOBAL) >= 0 && H5Fget_filesize(*file_, &size) >= 0 &&
-                    H5Fget_vfd_handle(*file_, H5P_DEFAULT, reinterpret_cast<void**>(&memory)) >= 0 && memory;
+  const bool flushed = H5Fflush(*file_, H5F_SCOPE_GLOBAL) >= 0;
+  // what the file uses; H5Fget_filesize would count the memory, which grows in steps of k_growth
+  const ssize_t size = flushed ? H5Fget_file_image(*file_, nullptr, 0) : -1;
+  const bool good =
+      size > 0 && H5Fget_vfd_handle(*file_, H5P_DEFAULT, reinterpret_cast<void**>(&memory)) >= 0 && memory;
   if (!good) throw IoError(path_ + ": cannot finish the HDF5 file: " + hdf5_reason() + ".");
   count = static_cast<std::size_t>(size);
   return *memory;

@@ -22,7 +22,8 @@ ParsedOptions parse_options(int argc, const char* const* argv, const std::string
       ->allow_extra_args(false)
       ->take_all()
       ->type_name("KEY=VALUE");
-  app.add_flag("--check", o.check, "read and check everything, predict the size, build nothing");
+  app.add_flag("--check", o.check,
+               "judge the files, predict the size, run nothing; fv_solver builds its grid to judge it");
   app.add_flag("--print-config", o.print_config, "print scene and configuration with all defaults resolved");
   app.add_flag("--help-config", o.help_config, "print every key with type, unit, range and default");
   app.add_option("--restart", o.restart, "checkpoint to continue from");

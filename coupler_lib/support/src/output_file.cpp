@@ -1,5 +1,6 @@
 #include "output_file.hpp"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -39,6 +40,10 @@ void OutputFile::write(const void* bytes, std::size_t count) {
 void OutputFile::flush() {
   errno = 0;
   if (std::fflush(file_) != 0) fail(path_, "write", errno);
+  // the system accepts bytes for a deleted file and drops them when it is closed
+  struct stat status {};
+  if (fstat(fileno(file_), &status) == 0 && status.st_nlink == 0)
+    throw IoError(path_ + ": was deleted while this run writes it. Leave the folder of a run in place.");
 }
 
 void OutputFile::close() {

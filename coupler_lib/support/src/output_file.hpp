@@ -17,7 +17,7 @@ class OutputFile {
   OutputFile& operator=(const OutputFile&) = delete;
   void write(const void* bytes, std::size_t count);
   void write(const std::string& text) { write(text.data(), text.size()); }
-  void flush();  ///< to the system
+  void flush();  ///< to the system; throws also where the file was deleted meanwhile
   void close();  ///< to the disk, then closed
 
  private:

@@ -100,7 +100,7 @@ void Scene::bind(Binder& b) {
         .min(0)
         .doc("Layer beyond it where particles follow the grid; at least one kernel radius.");
     b.key("fringe_layers", coupling.fringe_layers)
-        .min(1)
+        .min(2)  // the reconstruction at a computed cell's face reads two cells on either side
         .doc("Grid cells on which the particles' state is imposed.");
     b.choice("schedule", coupling.schedule.schedule, k_schedules)
         .doc("How the solvers take turns in a window.");

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "boundary/prescribed.hpp"
 #include "coupling/carve.hpp"
 #include "coupling_models.hpp"
 #include "littoral/error.hpp"
@@ -68,6 +69,35 @@ TEST(ChecksTest, BlocksThatMeetAreRefused) {
   scene.coupling.kind = support::Scene::CouplingKind::none;
   const std::vector<Block<2>> twice(2, test::water_box<2>(8, true));
   EXPECT_NE(refusal([&] { check_apart<2>(twice); }).find("meet or overlap"), std::string::npos);
+}
+
+TEST(ChecksTest, AGridThatEndsShortOfTheDomainIsRefusedBesideParticles) {
+  auto scene = test::top_scene(9.81);  // the particles have everything above z = .5, the grid ends at z = 1
+  const std::vector<Block<2>> blocks{test::water_box<2>(8, true)};
+  EXPECT_TRUE(check_covered<2>(blocks, scene).empty());
+  scene.domain.lower[2] = -0.1;
+  EXPECT_NE(
+      refusal([&] { check_covered<2>(blocks, scene); }).find("the domain begins at z = -0.1 m, the grid"),
+      std::string::npos);
+  scene.coupling.kind = support::Scene::CouplingKind::none;  // the grid alone is told so, of both ends
+  EXPECT_EQ(check_covered<2>(blocks, scene).size(), 2U);
+  scene.initial.surface = surface_at("z-1");  // above it is air
+  EXPECT_EQ(check_covered<2>(blocks, scene).size(), 1U);
+  scene.domain.lower[2] = 0.0;
+  EXPECT_TRUE(check_covered<2>(blocks, scene).empty());
+}
+
+TEST(PrescribedTest, AFormulaWithoutAValueIsNamedWithPlaceAndTime) {
+  const Prescribed u = prescribed(support::Formula("sqrt(0.05-t)"), "face 'box.z_lower', u");
+  EXPECT_EQ(u({0, 0, 0}, 0.05), 0.0);
+  std::string message;
+  try {
+    u({0.5, 0, 0}, 0.06);
+  } catch (const StabilityError& error) {
+    message = error.what();
+  }
+  EXPECT_EQ(message.find("face 'box.z_lower', u: the formula 'sqrt(0.05-t)' is"), 0U) << message;
+  EXPECT_NE(message.find("at (0.5, 0, 0) m, t = 0.06 s"), std::string::npos) << message;
 }
 
 TEST(AloneTest, AContinuedRunCountsItsWindowsOn) {

@@ -72,6 +72,16 @@ TEST(CheckpointTest, LargerThanAnyBuffer) {
   EXPECT_TRUE(same_bits(reader.doubles("y"), values));
 }
 
+// HDF5 grows an image by a megabyte at a time; a file holds what it uses, and can be read.
+TEST(CheckpointTest, SmallFieldsMakeASmallFile) {
+  const TemporaryFolder folder;
+  CheckpointWriter writer(folder / "a.h5");
+  writer.put("x", awkward_doubles());
+  writer.commit();
+  EXPECT_LT(std::filesystem::file_size(folder / "a.h5"), 16384U);
+  EXPECT_TRUE(same_bits(CheckpointReader(folder / "a.h5").doubles("x"), awkward_doubles()));
+}
+
 TEST(CheckpointTest, NothingUnderTheFinalNameBeforeCommit) {
   const TemporaryFolder folder;
   const std::string path = folder / "a.h5";

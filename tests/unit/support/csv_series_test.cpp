@@ -67,6 +67,14 @@ TEST(CsvSeriesTest, DiskFull) {
             "/dev/full: cannot write: No space left on device.");
 }
 
+TEST(CsvSeriesTest, ADeletedFolderIsAnError) {
+  const TemporaryFolder folder;
+  CsvSeries series(folder / "out/a.csv", {"time"});
+  series.row({1});
+  std::filesystem::remove_all(folder / "out");
+  EXPECT_CONTAINS(message_of<IoError>([&] { series.row({2}); }), "out/a.csv: was deleted while this run");
+}
+
 TEST(CsvSeriesTest, UnwritablePath) {
   const TemporaryFolder folder;
   write_text(folder / "file", "x");

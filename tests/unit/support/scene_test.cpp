@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "littoral/support/both_files.hpp"
+#include "littoral/support/scene_warnings.hpp"
 #include "support_test.hpp"
 
 namespace littoral::support {
@@ -115,6 +116,7 @@ TEST_F(SceneTest, NumbersOutOfRange) {
   EXPECT_CONTAINS(refusal({"time.end=0"}), "'time.end' is 0 s; expected a value > 0.");
   EXPECT_CONTAINS(refusal({"coupling.substeps=0"}), "expected a value >= 1.");
   EXPECT_CONTAINS(refusal({"coupling.deadline=0"}), "expected a value > 0.");
+  EXPECT_CONTAINS(refusal({"coupling.fringe_layers=1"}), "expected a value >= 2.");
 }
 
 TEST_F(SceneTest, TextInANumericKeyHasItsLine) {
@@ -161,6 +163,19 @@ TEST_F(SceneTest, RegionsAndLayers) {
   EXPECT_CONTAINS(refusal({"fluid.sound_speed=.inf"}),
                   "'fluid.sound_speed': particles need a finite sound speed");
   EXPECT_CONTAINS(refusal({"coupling.dt=0.1", "coupling.substeps=2"}), "given together with coupling.dt");
+}
+
+TEST_F(SceneTest, WhatIsHardlyMeantIsWarnedOf) {
+  EXPECT_EQ(scene_warnings(read()), std::vector<std::string>{});
+  const auto warning = [&](const std::vector<std::string>& settings) {
+    const auto warnings = scene_warnings(read(settings));
+    return warnings.size() == 1 ? warnings[0] : std::to_string(warnings.size()) + " warnings";
+  };
+  EXPECT_CONTAINS(warning({"gravity=[0, 0, 1]"}), "gravity points up, 1 m/s^2 along z");
+  EXPECT_CONTAINS(warning({"fluid.sound_speed=1", "reference_velocity=0.01"}),
+                  "less than sqrt(g H) = 1.225 m/s");
+  EXPECT_CONTAINS(warning({"reference_velocity=3"}), "less than five times the flow's 3 m/s");
+  EXPECT_CONTAINS(warning({"initial.w=4"}), "less than five times the flow's 4 m/s");
 }
 
 TEST_F(SceneTest, AWindowLongerThanTheRunIsRefused) {

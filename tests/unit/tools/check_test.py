@@ -23,6 +23,13 @@ class GoodScenes(unittest.TestCase):
                 self.assertTrue(any(line.startswith(("particles:", "cells:")) for line in predictions), predictions)
 
 
+class StrangeScenes(unittest.TestCase):
+    def test_warnings_of_both_programs_are_shown_once(self):
+        found, lines = checking.check(Scene("still_water", ("scene.gravity=[0, 0, 9.81]",)))
+        self.assertEqual(found, [])
+        self.assertEqual([line for line in lines if line.startswith("warning: gravity points up")], lines[:1])
+
+
 class BadScenes(unittest.TestCase):
     def test_mistakes_of_both_files_are_shown_together(self):
         text = "\n".join(problems("still_water", "scene.fluid.densty=1000", "sph.spacng=0.04", "fv.dual_time.drp=0.1"))
@@ -34,6 +41,10 @@ class BadScenes(unittest.TestCase):
     def test_values_out_of_range_are_named(self):
         self.assertRegex("\n".join(problems("still_water", "sph.spacing=-0.04")), r"spacing.*-0\.04")
         self.assertRegex("\n".join(problems("still_water", "scene.regions[0].lower=[0, 0, -3]")), "region")
+
+    def test_water_that_nobody_computes_is_named(self):
+        self.assertRegex("\n".join(problems("still_water", "fv.blocks[0].lower=[0, 0, -0.9]")),
+                         r"the domain begins at z = -1 m, the grid at -0\.9 m")
 
     def test_programs_that_read_different_scenes_are_told_what_differs(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -1,7 +1,7 @@
 """All four schedules on the standing wave at M = 1, 2, 5 and 10: which one is the default, and where the others fail.
 
-`serial` and `concurrent` extrapolate; what that feeds at large M is the gravest acoustic mode of the column (noise
-growth above 1). Only the default and `iterated` are gated; the others are recorded, failures included.
+`serial` and `concurrent` extrapolate the donors; where that feeds the gravest acoustic mode of the column, the noise
+grows (above 1). Only the default and `iterated` are gated; the others are recorded, failures included.
 """
 
 from lib import wave

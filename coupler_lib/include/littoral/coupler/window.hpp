@@ -8,9 +8,9 @@ namespace littoral::coupler {
 
 /// How the two solvers take turns in a window [t^n, t^n+1] (coupler_lib/README.md shows each as a sequence).
 ///   serial      SPH on donors extrapolated in time (24), then FV with the samples of t^n+1 (the paper)
-///   predicted   FV first with extrapolated samples; SPH on donors interpolated towards that; FV again from
-///   t^n iterated    the serial window `passes` times, later passes on donors interpolated to FV's last
-///   result concurrent  both at once on extrapolated data
+///   predicted   FV first with extrapolated samples; SPH on donors towards that; FV again from t^n
+///   iterated    the serial window `passes` times, later passes on donors towards FV's last result
+///   concurrent  both at once on extrapolated data; then FV again, from its try, with the true samples
 enum class Schedule : std::uint8_t { serial, predicted, iterated, concurrent };
 const char* name(Schedule schedule);
 
