@@ -41,7 +41,8 @@ double volume(const Stepper<2>& stepper) { return water_volume(stepper.blocks(),
 
 /// Steps until the end, or an error that says why not: either is all right, nothing else.
 struct Fate {
-  bool finite = true, refused = false;
+  bool finite = true;  // or given up with an error: the state is nobody's then
+  bool refused = false;
   double volume = 0.0, fastest = 0.0;
 };
 Fate fate(Stepper<2>& stepper, double dt, int steps, const char* what, double value) {
@@ -54,7 +55,7 @@ Fate fate(Stepper<2>& stepper, double dt, int steps, const char* what, double va
     std::printf("%-34s %10.3g   refused: %.100s\n", what, value, told.what());
   }
   fate.volume = volume(stepper) / before - 1.0;
-  fate.finite = std::isfinite(fate.fastest) && std::isfinite(fate.volume);
+  fate.finite = fate.refused || (std::isfinite(fate.fastest) && std::isfinite(fate.volume));
   std::printf("%-34s %10.3g   volume %+.2e\n", what, value, fate.volume);
   return fate;
 }
