@@ -15,9 +15,11 @@ if(LITTORAL_NATIVE)
   target_compile_options(littoral_options INTERFACE -march=native -mprefer-vector-width=256)
 endif()
 if(LITTORAL_SANITIZE)
-  # alignment: its checks at every access take as long to compile as all the rest, and these machines need none
-  target_compile_options(littoral_options INTERFACE -fsanitize=${LITTORAL_SANITIZE} -fno-sanitize=alignment
-                                                    -fno-omit-frame-pointer)
+  # alignment: checks at every access of a solver take as long to compile as all the rest; where bytes become numbers,
+  # in the libraries they share, they stay
+  target_compile_options(
+    littoral_options INTERFACE -fsanitize=${LITTORAL_SANITIZE} -fno-omit-frame-pointer
+    $<$<NOT:$<IN_LIST:$<TARGET_PROPERTY:NAME>,littoral_coupler;littoral_record;littoral_support>>:-fno-sanitize=alignment>)
   target_link_options(littoral_options INTERFACE -fsanitize=${LITTORAL_SANITIZE})
   target_sources(littoral_options
                  INTERFACE $<$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>:${CMAKE_CURRENT_LIST_DIR}/sanitizer_defaults.cpp>)
