@@ -16,12 +16,7 @@ constexpr double k_beyond = 127.0;  // of cells that no pass has reached
 template <int D, class Body>
 void for_each_neighbour(const Block<D>& block, const Band<D>& band, std::size_t b, std::ptrdiff_t c,
                         Body&& body) {
-  std::array<int, D> lower, upper;
-  lower.fill(-1);
-  upper.fill(2);
-  for_each_index<D>(lower, upper, [&](const std::array<int, D>& step) {
-    std::ptrdiff_t other = c;
-    for (std::size_t d = 0; d < D; ++d) other += step[d] * block.extent.stride[d];
+  for_each_around<D>(block.extent.stride, c, [&](const std::array<int, D>&, std::ptrdiff_t other) {
     if (other != c && band.stands_for_cell(b, other)) body(other);
   });
 }

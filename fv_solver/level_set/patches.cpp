@@ -273,12 +273,8 @@ void SurfacePatches<D>::build(const std::vector<Block<D>>& blocks, const Exchang
         double least = std::numeric_limits<double>::infinity();
         if (layer == 0 && own_patch(block, band, phi[b], b, c, best)) least = length(best.to_base);
         if (layer > 0) {
-          std::array<int, D> lower, upper;
-          lower.fill(-1);
-          upper.fill(2);
-          for_each_index<D>(lower, upper, [&](const std::array<int, D>& step) {
-            std::ptrdiff_t other = c;
-            for (std::size_t d = 0; d < D; ++d) other += step[d] * block.extent.stride[d];
+          const auto& stride = block.extent.stride;
+          for_each_around<D>(stride, c, [&](const std::array<int, D>& step, std::ptrdiff_t other) {
             // only layers before: what this layer finds is for the next one
             if (band.layer(b, other) >= layer || !has(b, other)) return;
             SurfacePatch<D> patch = at(b, other);

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/between.hpp"
 #include "grid/loops.hpp"
+#include "grid/small_matrix.hpp"
 
 namespace littoral::fv {
 namespace {
@@ -13,14 +15,8 @@ template <int D>
 double size(const Block<D>& block, std::ptrdiff_t c) {
   double most2 = 0.0;
   for (std::size_t d = 0; d < D; ++d) {
-    double width2 = 0.0;
-    for (std::size_t k = 0; k < D; ++k) {
-      const auto up = static_cast<std::size_t>(c + block.extent.stride[d]);
-      const auto low = static_cast<std::size_t>(c - block.extent.stride[d]);
-      const double x = 0.5 * (block.centre[k][up] - block.centre[k][low]);
-      width2 += x * x;
-    }
-    most2 = std::max(most2, width2);
+    const SpaceVector<D> across = between(block, c - block.extent.stride[d], c + block.extent.stride[d]);
+    most2 = std::max(most2, 0.25 * dot(across, across));
   }
   return std::sqrt(most2);
 }

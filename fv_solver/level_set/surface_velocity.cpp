@@ -33,19 +33,14 @@ Local<D> interpolate(const Block<D>& block, const VectorField<D>& u, std::ptrdif
     weight[d] = {0.5 * x * (x - 1.0), 1.0 - x * x, 0.5 * x * (x + 1.0)};
     slope[d] = {x - 0.5, -2.0 * x, x + 0.5};
   }
-  std::array<int, D> lower, upper;
-  lower.fill(-1);
-  upper.fill(2);
-  const std::ptrdiff_t middle = block.extent.at(centre);
   Local<D> local;
   SpaceMatrix<D> by_index{};  // [component][direction]
-  for_each_index<D>(lower, upper, [&](const std::array<int, D>& step) {
-    std::ptrdiff_t at = middle;
+  const auto& stride = block.extent.stride;
+  for_each_around<D>(stride, block.extent.at(centre), [&](const std::array<int, D>& step, std::ptrdiff_t at) {
     double w = 1.0;
     SpaceVector<D> dw;
     dw.fill(1.0);
     for (std::size_t d = 0; d < D; ++d) {
-      at += step[d] * block.extent.stride[d];
       const auto s = static_cast<std::size_t>(step[d] + 1);
       w *= weight[d][s];
       for (std::size_t k = 0; k < D; ++k) dw[k] *= k == d ? slope[d][s] : weight[d][s];

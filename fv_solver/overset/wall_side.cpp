@@ -5,16 +5,11 @@
 #include <limits>
 
 #include "grid/loops.hpp"
+#include "grid/small_matrix.hpp"
 
 namespace littoral::fv {
 namespace {
 
-template <std::size_t D>
-double dot(const std::array<double, D>& a, const std::array<double, D>& b) {
-  double s = 0.0;
-  for (std::size_t k = 0; k < D; ++k) s += a[k] * b[k];
-  return s;
-}
 template <std::size_t D>
 std::array<double, D> minus(const std::array<double, D>& a, const std::array<double, D>& b) {
   std::array<double, D> c;
