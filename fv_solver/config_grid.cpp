@@ -177,12 +177,14 @@ void FaceConfig::bind(Binder& b) {
   b.key("u", u).unit("m/s").doc("Velocity along x on the face.");
   b.key("v", v).unit("m/s").doc("Velocity along y on the face; 3-D only.");
   b.key("w", w).unit("m/s").doc("Velocity along z on the face.");
-  b.key("p", p).unit("Pa").doc("Pressure on the face; left out: hydrostatic.");
+  b.key("p", p).unit("Pa").doc(
+      "Pressure on the face; left out: that of water at rest under `surface`, in a scene without a surface "
+      "p0 at the origin.");
   b.key("surface", surface)
       .doc(
-          "Free surface beyond the face: a formula < 0 in water, 0 on the surface. inflow, far_field and "
-          "state "
-          "only; left out: the scene's initial.surface.");
+          "Free surface beyond the face: a formula < 0 in water, 0 on the surface; left out: the scene's "
+          "initial.surface. inflow, far_field and state hold it; outflow and convective, through which the "
+          "surface leaves, have their pressure from it.");
   b.key("wave_speed", wave_speed)
       .unit("m/s")
       .min(0)

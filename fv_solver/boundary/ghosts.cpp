@@ -3,7 +3,10 @@
 #include <cmath>
 
 #include "boundary/line.hpp"
+#include "boundary/still_level.hpp"
+#include "grid/between.hpp"
 #include "grid/loops.hpp"
+#include "grid/small_matrix.hpp"
 #include "grid/space.hpp"
 #include "littoral/error.hpp"
 
@@ -94,7 +97,9 @@ void evaluate_windows(Block<D>& block, const Equations<D>& equations, double t) 
             w.given_u[layer][k].push_back(w.velocity[k] ? w.velocity[k](vector_in_space<D>(x), t) : 0.0);
         if (uses_p)
           w.given_p[layer].push_back(
-              w.pressure ? w.pressure(vector_in_space<D>(x), t) - equations.fluid.hydrostatic(x) : 0.0);
+              w.pressure ? w.pressure(vector_in_space<D>(x), t) - equations.fluid.hydrostatic(x)
+                         : pressure_at_rest<D>(w.surface, equations.fluid, x, t,
+                                               length(between(block, line.inner[0], line.ghost[0]))));
       });
     }
   }

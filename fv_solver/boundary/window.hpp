@@ -52,9 +52,9 @@ struct Window {
   std::array<int, D> lower{};          // first cell, tangential directions; entry [direction] is not used
   std::array<int, D> upper{};          // one past the last cell
   std::array<Prescribed, D> velocity;  // [m/s] empty: 0
-  Prescribed pressure;                 // [Pa] absolute; empty: the hydrostatic reference
-  Prescribed surface;                  // < 0 in water, 0 on the surface beyond inflow, far_field, state;
-                                       // empty: phi is extrapolated
+  Prescribed pressure;                 // [Pa] absolute; empty: of water at rest under `surface`
+  Prescribed surface;                  // < 0 in water: phi beyond inflow, far_field, state, and the level
+                                       // of a pressure not given; empty: phi extrapolated, p the reference
   double wave_speed = 0.0;             // [m/s] far_field; 0: |u| of the given state, at least c0/10.
                                        // convective: of what leaves; 0: c0
   Join<D> join;                        // condition join only: the other side

@@ -81,6 +81,53 @@ TEST(ConvectiveOutletTest, AStepUndoneLeavesNoTrace) {
   EXPECT_EQ(once.state()[0].p, twice.state()[0].p);
 }
 
+/// Stream U = 1 from the left under a flat surface, on sheared cells that widen along both directions: the
+/// largest difference from the stream, and of phi from the distance, after the water has passed once
+double stream_under_surface(double level, Condition opening, double inverse_c2 = 0.0) {
+  Block<2> block = deformed_box<2>(10, 0.0);
+  close_with<2>(block, Condition::slip);
+  const Prescribed surface = [=](const std::array<double, 3>& x, double) { return 2.0 * (x[2] - level); };
+  for (Window<2>& w : block.windows) {
+    if (w.direction != 0) continue;
+    w.condition = w.side == 0 && opening != Condition::far_field ? Condition::inflow : opening;
+    w.velocity[0] = [](const std::array<double, 3>&, double) { return 1.0; };
+    w.surface = surface;
+  }
+  Equations<2> equations;
+  equations.fluid.gravity = {0.0, -9.81};
+  equations.fluid.inverse_c2 = inverse_c2;
+  Stepper<2> stepper({block}, equations, std::make_unique<MultigridSolver<2>>(), tight());
+  stepper.initialise(
+      [&](const std::array<double, 2>& x, double) {
+        return PointState<2>{equations.fluid.hydrostatic({0.0, x[1] - level}), {1.0, 0.0}};
+      },
+      0.0);
+  stepper.set_surface(surface);
+  for (int step = 0; step < 5; ++step) stepper.advance(0.2);
+  double largest = 0.0;
+  const Block<2>& made = stepper.blocks()[0];
+  for_each_index<2>({}, made.extent.n, [&](const std::array<int, 2>& index) {
+    const auto c = static_cast<std::size_t>(made.extent.at(index));
+    const double height = made.centre[1][c] - level;
+    if (std::abs(height) < 0.1)
+      largest = std::max(largest, std::abs(stepper.surface()->phi()[0][c] - height));
+    if (made.solved[c] == 0.0) return;
+    largest = std::max(largest, std::abs(stepper.state()[0].u[0][c] - 1.0));
+    largest = std::max(largest, std::abs(stepper.state()[0].u[1][c]));
+  });
+  return largest;
+}
+
+TEST(SurfaceThroughOpeningsTest, AStreamUnderAFlatSurfacePassesAtAnyLevel) {
+  // near a face, a centre, and between; z = 0 is the bottom
+  for (const double level : {0.45, 0.5, 0.512})
+    EXPECT_LT(stream_under_surface(level, Condition::outflow), 1e-9) << level;
+  for (const Condition opening : {Condition::convective, Condition::far_field, Condition::state})
+    EXPECT_LT(stream_under_surface(0.48, opening), 1e-9) << name(opening);
+  // c = 100 m/s: second order in the cells, for the density of water at rest is no constant
+  EXPECT_LT(stream_under_surface(0.47, Condition::outflow, 1e-4), 1e-5);
+}
+
 TEST(SpongeTest, DampsAsItsRateSaysAndLeavesTheRestAlone) {
   // a stream along x that does not vary along x, with the zone in the upper half: each row on its own
   Block<2> block = deformed_box<2>(8, 0.0, 0.0, 0.0, {true, false});
