@@ -36,6 +36,8 @@ def check(case):
         run(f"still level {shift} in the cell", 128, shift)
     run("ka = .3", 128, 0.3, amplitude=0.3 / (2 * math.pi))
     run("curved cells", 128, extra=CURVED)
+    run("turned by 7 degrees, gravity too", 128, 0.3, scene=case.folder / "turned")
+    run("a patch of cells turned by 20 degrees", 128, scene=case.folder / "patch")
     run("across an overlap", 128, scene=case.folder / "overset")
     run("coarse", 64, 0.3, gates=False)
     case.table("Standing wave, 170 steps a period", ["", "cells a wavelength", "amplitude a period %", "period %",
