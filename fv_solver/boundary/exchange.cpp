@@ -67,13 +67,13 @@ void Exchange<D>::states(const std::vector<Block<D>>& blocks, std::vector<State<
         q[b].p[c] = blocks[b].reference_pressure[c] + value[0];
         for (std::size_t k = 0; k < D; ++k) q[b].u[k][c] = value[k + 1];
       });
-  std::vector<std::vector<double*>> fields(blocks.size());
+  arrays_.resize(blocks.size());
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     fill_ghosts(blocks[b], q[b]);
-    fields[b].push_back(q[b].p.data());
-    for (auto& u : q[b].u) fields[b].push_back(u.data());
+    arrays_[b].assign(1, q[b].p.data());
+    for (auto& u : q[b].u) arrays_[b].push_back(u.data());
   }
-  links_.template copy_fields<double>(fields);
+  links_.template copy_fields<double>(arrays_);
 }
 
 template <int D>
@@ -89,9 +89,11 @@ void Exchange<D>::scalars(const std::vector<Block<D>>& blocks, const std::vector
           if (blocks[b].status[c] != CellStatus::interpolated) return;
           for (std::size_t i = 0; i < fields.size(); ++i) (*fields[i][b])[c] = value[i];
         });
-  std::vector<std::vector<double*>> pointers(blocks.size());
-  for (std::size_t b = 0; b < blocks.size(); ++b)
-    for (const auto& field : fields) pointers[b].push_back(field[b]->data());
+  arrays_.resize(blocks.size());
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    arrays_[b].clear();
+    for (const auto& field : fields) arrays_[b].push_back(field[b]->data());
+  }
   const auto fill = [&](ScalarGhosts by) {
     for (const auto& field : fields)
       for (std::size_t b = 0; b < blocks.size(); ++b)
@@ -99,10 +101,10 @@ void Exchange<D>::scalars(const std::vector<Block<D>>& blocks, const std::vector
   };
   if (rule == ScalarGhosts::level_set) {  // extrapolation looks across joins and periodic faces
     fill(ScalarGhosts::cell_data);
-    links_.template copy_fields<double>(pointers, true);
+    links_.template copy_fields<double>(arrays_, true);
   }
   fill(rule);
-  links_.template copy_fields<double>(pointers);
+  links_.template copy_fields<double>(arrays_);
 }
 
 template <int D>

@@ -57,8 +57,6 @@ class Exchange {
   const IrregularFaces<D>& irregular() const { return irregular_; }
   /// Ghosts of each block that stand for cells.
   const std::vector<ConnectedGhosts>& connected() const { return connected_; }
-  const JoinLinks<D>& links() const { return links_; }
-  const DonorLinks<D>& overset() const { return overset_; }
   const Layout<D>& layout() const { return layout_; }
   const Ranks& ranks() const { return layout_.owners.ranks; }
   const ClosedContour<D>& closed_contour() const { return contour_; }
@@ -70,6 +68,7 @@ class Exchange {
   IrregularFaces<D> irregular_;
   DonorLinks<D> overset_;
   ClosedContour<D> contour_;
+  mutable std::vector<std::vector<double*>> arrays_;  // [block][field] of one exchange; kept for its memory
 };
 
 /// Centres, volumes and face areas of the ghosts behind joins are those of the cells there, so that

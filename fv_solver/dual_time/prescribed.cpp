@@ -1,5 +1,7 @@
 #include "dual_time/prescribed.hpp"
 
+#include "grid/between.hpp"
+
 namespace littoral::fv {
 
 template <int D>
@@ -11,9 +13,7 @@ StepReport PrescribedFlow<D>::solve(const StepProblem<D>& problem, const InnerTo
   for (; report.cycles < k_rounds; ++report.cycles) {
     for (std::size_t b = 0; b < q.size(); ++b)
       for (std::size_t c = 0; c < q[b].p.size(); ++c) {
-        std::array<double, D> x;
-        for (std::size_t k = 0; k < D; ++k) x[k] = problem.blocks[b].centre[k][c];
-        const std::array<double, D> u = velocity_(x, problem.t);
+        const std::array<double, D> u = velocity_(centre(problem.blocks[b], c), problem.t);
         for (std::size_t k = 0; k < D; ++k) q[b].u[k][c] = u[k];
       }
     if (problem.surface != nullptr)

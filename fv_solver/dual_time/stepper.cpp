@@ -5,19 +5,13 @@
 #include <cstdio>
 
 #include "boundary/ghosts.hpp"
+#include "grid/between.hpp"
 #include "grid/loops.hpp"
 #include "grid/space.hpp"
 #include "littoral/error.hpp"
 
 namespace littoral::fv {
 namespace {
-
-template <int D>
-std::array<double, D> centre(const Block<D>& block, std::size_t c) {
-  std::array<double, D> x;
-  for (std::size_t k = 0; k < D; ++k) x[k] = block.centre[k][c];
-  return x;
-}
 
 std::string number(double value) {
   char text[32];

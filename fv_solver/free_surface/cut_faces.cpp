@@ -1,8 +1,10 @@
 #include "free_surface/cut_faces.hpp"
 
 #include <cmath>
+#include <optional>
 
 #include "boundary/boundary_flux.hpp"
+#include "grid/between.hpp"
 #include "grid/loops.hpp"
 #include "grid/small_matrix.hpp"
 #include "physics/velocity_gradient.hpp"
@@ -25,25 +27,19 @@ bool has_own_flux(Condition condition) {
   }
 }
 
+/// What friction at the surface needs of a water cell beside it.
 template <int D>
-double distance(const Block<D>& block, std::ptrdiff_t a, std::ptrdiff_t b) {
-  double d2 = 0.0;
-  for (std::size_t k = 0; k < D; ++k) {
-    const double x =
-        block.centre[k][static_cast<std::size_t>(a)] - block.centre[k][static_cast<std::size_t>(b)];
-    d2 += x * x;
-  }
-  return std::sqrt(d2);
-}
+struct SurfaceFlow {
+  VelocityGradient<D> gradient;  // [1/s]
+  SpaceVector<D> normal;         // out of the water
+};
 
-/// Force of the stress through a face of water cell c on the side of the air, without its shear along the
+/// Force of the stress through a face of a water cell on the side of the air, without its shear along the
 /// surface: T' = T - s n - n s with s the part of T n along the surface, so that T' n = (n.T n) n. pure
 template <int D>
-std::array<double, D> free_shear_force(const Block<D>& block, const State<D>& q, double mu, const Field& phi,
-                                       std::ptrdiff_t c, const std::array<double, D>& area) {
-  const VelocityGradient<D> g = velocity_gradient<D>(block, q, c);
-  const std::array<double, D> n = surface_normal<D>(block, phi, c);
-  std::array<double, D> on_surface{}, force{};  // T n, T A
+SpaceVector<D> free_shear_force(const SurfaceFlow<D>& flow, double mu, const SpaceVector<D>& area) {
+  const auto& [g, n] = flow;
+  SpaceVector<D> on_surface{}, force{};  // T n, T A
   double normal_stress = 0.0, area_n = 0.0;
   for (std::size_t k = 0; k < D; ++k) {
     for (std::size_t l = 0; l < D; ++l) {
@@ -62,43 +58,37 @@ std::array<double, D> free_shear_force(const Block<D>& block, const State<D>& q,
   return force;
 }
 
+/// Pressure beyond the hydrostatic reference on the surface, where it crosses the line from water cell i to
+/// air cell a at the part theta: p0 - P(x_s) [Pa]. pure
+template <int D>
+double pressure_of_air(const Block<D>& block, const Fluid<D>& fluid, std::size_t i, std::size_t a,
+                       double theta) {
+  SpaceVector<D> x = between(block, i, a);
+  for (std::size_t k = 0; k < D; ++k) x[k] = block.centre[k][i] + theta * x[k];
+  return fluid.reference_pressure - fluid.hydrostatic(x);
+}
+
+/// 2 mu n.grad(u).n [Pa]. pure
+template <int D>
+double normal_stress(const SurfaceFlow<D>& flow, double mu) {
+  return 2.0 * mu * dot(flow.normal, times(flow.gradient, flow.normal));
+}
+
 }  // namespace
 
 template <int D>
 std::array<double, D> surface_normal(const Block<D>& block, const Field& phi, std::ptrdiff_t c) {
-  SpaceMatrix<D> dx;  // [component][direction of the grid], over two cells
-  SpaceVector<D> change, n{};
+  SpaceMatrix<D> along;  // [direction of the grid], over two cells
+  SpaceVector<D> change;
   for (std::size_t d = 0; d < D; ++d) {
-    const auto up = static_cast<std::size_t>(c + block.extent.stride[d]);
-    const auto low = static_cast<std::size_t>(c - block.extent.stride[d]);
-    change[d] = phi[up] - phi[low];
-    for (std::size_t k = 0; k < D; ++k) dx[k][d] = block.centre[k][up] - block.centre[k][low];
+    const std::ptrdiff_t up = c + block.extent.stride[d], low = c - block.extent.stride[d];
+    along[d] = between(block, low, up);
+    change[d] = phi[static_cast<std::size_t>(up)] - phi[static_cast<std::size_t>(low)];
   }
-  const SpaceMatrix<D> along = inverse<D>(dx);
-  double size2 = 0.0;
-  for (std::size_t k = 0; k < D; ++k) {
-    for (std::size_t d = 0; d < D; ++d) n[k] += change[d] * along[d][k];
-    size2 += n[k] * n[k];
-  }
-  for (double& x : n) x /= std::sqrt(std::max(size2, 1e-300));
+  SpaceVector<D> n = times(inverse<D>(along), change);
+  const double size = std::sqrt(std::max(dot(n, n), 1e-300));
+  for (double& x : n) x /= size;
   return n;
-}
-
-template <int D>
-double surface_pressure(const Block<D>& block, const Fluid<D>& fluid, double mu, const Field& phi,
-                        const State<D>& q, std::size_t i, std::size_t a, double theta) {
-  std::array<double, D> x;
-  for (std::size_t k = 0; k < D; ++k)
-    x[k] = block.centre[k][i] + theta * (block.centre[k][a] - block.centre[k][i]);
-  double p = fluid.reference_pressure - fluid.hydrostatic(x);
-  if (mu != 0.0) {
-    const auto c = static_cast<std::ptrdiff_t>(i);
-    const VelocityGradient<D> g = velocity_gradient<D>(block, q, c);
-    const std::array<double, D> n = surface_normal<D>(block, phi, c);
-    for (std::size_t k = 0; k < D; ++k)
-      for (std::size_t l = 0; l < D; ++l) p += 2.0 * mu * n[k] * g[k][l] * n[l];
-  }
-  return p;
 }
 
 template <int D>
@@ -107,13 +97,6 @@ std::size_t CutFaces<D>::row(std::size_t direction, const std::array<int, D>& in
   for (std::size_t d = D - 1; d > 0; --d)
     r = r * static_cast<std::size_t>(n_[d] + (d == direction ? 1 : 0)) + static_cast<std::size_t>(index[d]);
   return r;
-}
-
-template <int D>
-std::size_t CutFaces<D>::size() const {
-  std::size_t n = 0;
-  for (const Faces& f : faces_) n += f.cell.size();
-  return n;
 }
 
 template <int D>
@@ -218,19 +201,24 @@ class CutFlux {
       u[k] = value(q_.u[k][l.behind], q_.u[k][l.near], q_.u[k][l.across], small_u());
     return u;
   }
-  /// Pressure at `at` beyond cell i towards air cell a, j behind i; see line_weights.
+  /// nothing without friction
+  std::optional<SurfaceFlow<D>> surface_flow(std::size_t i) const {
+    if (k_.mu == 0.0) return std::nullopt;
+    const auto c = static_cast<std::ptrdiff_t>(i);
+    return SurfaceFlow<D>{velocity_gradient<D>(block_, q_, c), surface_normal<D>(block_, phi_, c)};
+  }
+  /// Pressure at `at` beyond cell i towards air cell a, j behind i; see line_weights. flow: of cell i
   double continued(std::size_t i, std::size_t a, std::size_t j, double reach, double at,
-                   LineStencil& stencil) const {
+                   const std::optional<SurfaceFlow<D>>& flow, LineStencil& stencil) const {
     const double theta = crossing(phi_[i], phi_[a]);
-    const auto i_ = static_cast<std::ptrdiff_t>(i), a_ = static_cast<std::ptrdiff_t>(a),
-               j_ = static_cast<std::ptrdiff_t>(j);
-    const double behind = distance<D>(block_, i_, j_) / distance<D>(block_, i_, a_);
+    const double behind = length(between(block_, i, j)) / length(between(block_, i, a));
     // a stencil at rest lets the surface cross its limit by half, no further: theta is its denominator
     if (!settled_ || (stencil == LineStencil::own && theta < 0.5 * reach))
       stencil = line_stencil(theta, wet_[j] != 0, reach);
     const LineWeights w = line_weights(stencil, theta, behind, at);
-    return w.own * p_[i] + w.behind * p_[j] +
-           w.surface * surface_pressure<D>(block_, fluid_, k_.mu, phi_, q_, i, a, theta);
+    double on_surface = pressure_of_air<D>(block_, fluid_, i, a, theta);
+    if (flow) on_surface += normal_stress<D>(*flow, k_.mu);
+    return w.own * p_[i] + w.behind * p_[j] + w.surface * on_surface;
   }
   /// Part of the way from cell i to a at which their face lies.
   double face_at(std::size_t i, std::size_t a) const {
@@ -238,7 +226,8 @@ class CutFlux {
   }
   double pressure_behind(const LineCells<D>& l, LineStencil& stencil) const {
     if (wet_[l.behind] != 0) return p_[l.behind];
-    return continued(l.near, l.behind, l.across, face_at(l.near, l.behind), 1.0, stencil);
+    return continued(l.near, l.behind, l.across, face_at(l.near, l.behind), 1.0, surface_flow(l.near),
+                     stencil);
   }
 
   void inner(const LineCells<D>& low, const LineCells<D>& high, const std::array<double, D>& area,
@@ -265,22 +254,15 @@ class CutFlux {
     for (std::size_t k = 0; k < D; ++k) momentum[k] = from_l * u_l[k] + from_r * u_r[k] + p_face * area[k];
   }
 
-  bool alone(std::size_t c) const {
-    for (std::size_t d = 0; d < D; ++d) {
-      const auto s = static_cast<std::size_t>(block_.extent.stride[d]);
-      if (wet_[c - s] != 0 || wet_[c + s] != 0) return false;
-    }
-    return true;
-  }
-
   /// l: the water's side
   void free(const LineCells<D>& l, const std::array<double, D>& area, LineStencil& stencil, double& mass,
             std::array<double, D>& momentum) const {
     const double at = face_at(l.near, l.across);
+    const std::optional<SurfaceFlow<D>> surface = surface_flow(l.near);
     // all around a cell of water alone p = p0: it falls with g, whatever part of the cell it fills
-    const double p_face = alone(l.near)
-                              ? surface_pressure<D>(block_, fluid_, 0.0, phi_, q_, l.near, l.across, at)
-                              : continued(l.near, l.across, l.behind, at, at, stencil);
+    const double p_face = air_all_around<D>(block_, wet_, static_cast<std::ptrdiff_t>(l.near))
+                              ? pressure_of_air<D>(block_, fluid_, l.near, l.across, at)
+                              : continued(l.near, l.across, l.behind, at, at, surface, stencil);
     const std::array<double, D> u = velocity(l);
     double flow = 0.0;
     for (std::size_t k = 0; k < D; ++k) flow += u[k] * area[k];
@@ -288,9 +270,8 @@ class CutFlux {
         (1.0 - at) * block_.reference_pressure[l.near] + at * block_.reference_pressure[l.across];
     mass = fluid_.rho(p_face + reference) * flow;
     for (std::size_t k = 0; k < D; ++k) momentum[k] = mass * u[k] + p_face * area[k];
-    if (k_.mu == 0.0) return;
-    const std::array<double, D> force =
-        free_shear_force<D>(block_, q_, k_.mu, phi_, static_cast<std::ptrdiff_t>(l.near), area);
+    if (!surface) return;
+    const SpaceVector<D> force = free_shear_force<D>(*surface, k_.mu, area);
     for (std::size_t k = 0; k < D; ++k) momentum[k] -= force[k];
   }
 
@@ -344,9 +325,5 @@ template std::array<double, 2> surface_normal<2>(const Block<2>&, const Field&, 
 template std::array<double, 3> surface_normal<3>(const Block<3>&, const Field&, std::ptrdiff_t);
 template class CutFaces<2>;
 template class CutFaces<3>;
-template double surface_pressure(const Block<2>&, const Fluid<2>&, double, const Field&, const State<2>&,
-                                 std::size_t, std::size_t, double);
-template double surface_pressure(const Block<3>&, const Fluid<3>&, double, const Field&, const State<3>&,
-                                 std::size_t, std::size_t, double);
 
 }  // namespace littoral::fv

@@ -10,9 +10,6 @@
 
 namespace littoral::fv {
 
-/// Cells that hold water, by the sign of phi: 1 or 0, ghosts included.
-using WetMask = std::vector<std::uint8_t>;
-
 /// Faces of one block whose stencils the surface cuts, row by row as the residual visits them, with their
 /// fluxes along +direction. Everywhere else the ordinary fluxes hold, so that a scene pays for its surface
 /// only, and one without a surface for nothing.
@@ -41,19 +38,6 @@ class CutFaces {
   /// ones. after_friction: only those between water and air, whose stress they hold already.
   void put(std::size_t direction, const std::array<int, D>& index, std::ptrdiff_t n, const FluxRow<D>& row,
            bool after_friction) const;
-
-  /// body(direction, side, water cell, air cell): faces between water and air, the air on `side`.
-  template <class Body>
-  void for_each_surface_face(const Block<D>& block, const WetMask& wet, Body&& body) const {
-    for (std::size_t d = 0; d < D; ++d)
-      for (const std::ptrdiff_t c : faces_[d].cell) {
-        const std::ptrdiff_t low = c - block.extent.stride[d];
-        const bool wet_low = wet[static_cast<std::size_t>(low)] != 0;
-        if (wet_low == (wet[static_cast<std::size_t>(c)] != 0)) continue;
-        body(d, wet_low ? std::size_t{1} : std::size_t{0}, wet_low ? low : c, wet_low ? c : low);
-      }
-  }
-  std::size_t size() const;
 
  private:
   struct Faces {
@@ -84,11 +68,12 @@ struct BlockSurface {
 template <int D>
 std::array<double, D> surface_normal(const Block<D>& block, const Field& phi, std::ptrdiff_t c);
 
-/// Pressure beyond the hydrostatic reference on the surface, where it crosses the line from water cell i to
-/// air cell a at the part theta: p0 - P(x_s), and with friction the normal stress 2 mu n.grad(u).n of the
-/// water cell [Pa]. pure
+/// No water across any face of cell c. pure
 template <int D>
-double surface_pressure(const Block<D>& block, const Fluid<D>& fluid, double mu, const Field& phi,
-                        const State<D>& q, std::size_t i, std::size_t a, double theta);
+bool air_all_around(const Block<D>& block, const WetMask& wet, std::ptrdiff_t c) {
+  for (const std::ptrdiff_t s : block.extent.stride)
+    if (wet[static_cast<std::size_t>(c - s)] != 0 || wet[static_cast<std::size_t>(c + s)] != 0) return false;
+  return true;
+}
 
 }  // namespace littoral::fv

@@ -1,7 +1,5 @@
 #include "free_surface/free_surface.hpp"
 
-#include <limits>
-
 #include "grid/loops.hpp"
 #include "grid/metrics.hpp"
 
@@ -14,11 +12,7 @@ std::vector<std::ptrdiff_t> cells_alone(const Block<D>& block, const WetMask& we
   std::vector<std::ptrdiff_t> alone;
   for_each_index<D>({}, block.extent.n, [&](const std::array<int, D>& index) {
     const std::ptrdiff_t c = block.extent.at(index);
-    bool water = wet[static_cast<std::size_t>(c)] == 0;
-    for (std::size_t d = 0; d < D; ++d)
-      for (const std::ptrdiff_t step : {-block.extent.stride[d], block.extent.stride[d]})
-        water = water || wet[static_cast<std::size_t>(c + step)] != 0;
-    if (!water) alone.push_back(c);
+    if (wet[static_cast<std::size_t>(c)] != 0 && air_all_around<D>(block, wet, c)) alone.push_back(c);
   });
   return alone;
 }
@@ -152,20 +146,9 @@ void FreeSurface<D>::continue_flow(const std::vector<Block<D>>& blocks, const Ex
                                    std::vector<State<D>>& q) {
   std::vector<VectorField<D>*> u;
   for (auto& state : q) u.push_back(&state.u);
-  const auto extend = [&](const std::vector<Field>& phi) {
-    set_.extension.extend(blocks, exchange, set_.band, set_.patches, phi, set_.options.extension_layers, u);
-  };
-  if (evaluations_ <= k_settling) {
-    extend(set_.phi);
-    return;
-  }
-  // the mask rests: what is solved must not be taken for air, though its phi has changed sign since
-  std::vector<Field> held = set_.phi;
-  for (std::size_t b = 0; b < held.size(); ++b)
-    for (std::size_t c = 0; c < held[b].size(); ++c)
-      if ((held[b][c] < 0.0) != (wet_[b][c] != 0))
-        held[b][c] = (wet_[b][c] != 0 ? -1.0 : 1.0) * std::numeric_limits<double>::min();
-  extend(held);
+  // by the mask, which may rest: what is solved must not be taken for air, though its phi has changed sign
+  // since
+  set_.extension.extend(blocks, exchange, set_.band, set_.patches, wet_, set_.options.extension_layers, u);
 }
 
 /// Beyond the surface p - P keeps the value that it has on it: what gradients beside walls and output read,

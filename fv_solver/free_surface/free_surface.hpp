@@ -13,8 +13,8 @@ namespace littoral::fv {
 /// The stepper calls, in this order (comm collective, all of them),
 ///   begin    the band of phi^n and its closest surface points; phi extrapolated
 ///   follow   in every evaluation of the residual: u continued into the air, phi by (7), (23) with the
-///   velocity
-///            of the closest surface point, the cells that are water, the faces that the surface cuts
+///            velocity of the closest surface point (no lag), the cells that are water, the faces that the
+///            surface cuts
 ///   end      phi made a distance again without moving its zero level, u continued about the new surface, so
 ///            that cells that turn to water hold usable u^n, u^n-1
 template <int D>
@@ -44,9 +44,7 @@ class FreeSurface {
   /// Of a block, as it stands: for Equations::residual.
   BlockSurface<D> block(std::size_t b) { return {set_.phi[b], wet_[b], evaluations_ > k_settling, cut_[b]}; }
   const std::vector<Field>& phi() const { return set_.phi; }
-  const std::vector<WetMask>& wet() const { return wet_; }
   LevelSet<D>& level_set() { return set_; }
-  const LevelSet<D>& level_set() const { return set_; }
   /// The surface's Courant number of a unit step [1/s].
   double rate(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange) const {
     return set_.surface_velocity.empty()

@@ -59,6 +59,8 @@ struct Extent {
 };
 
 using Field = std::vector<double>;
+/// Cells that hold water: 1 or 0, ghosts included.
+using WetMask = std::vector<std::uint8_t>;
 template <int D>
 using VectorField = std::array<Field, D>;
 

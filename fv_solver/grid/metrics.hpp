@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <functional>
 #include <string>
 
@@ -19,6 +20,22 @@ void set_metrics(Block<D>& block);
 /// Recomputes `solved` from the statuses. Call after any change of status.
 template <int D>
 void set_solved_mask(Block<D>& block);
+
+/// Measure of the lower face of a cell in direction d [m^(D-1)].
+template <int D>
+double face_measure(const Block<D>& block, std::size_t d, std::size_t c) {
+  double s2 = 0.0;
+  for (std::size_t k = 0; k < D; ++k) s2 += block.area[d][k][c] * block.area[d][k][c];
+  return std::sqrt(s2);
+}
+
+/// Thickness of a cell along d: volume over the mean of its two faces [m]; 0 where they have no measure.
+template <int D>
+double thickness(const Block<D>& block, std::size_t d, std::size_t c) {
+  const std::size_t up = c + static_cast<std::size_t>(block.extent.stride[d]);
+  const double s = 0.5 * (face_measure(block, d, c) + face_measure(block, d, up));
+  return s > 0.0 ? block.volume[c] / s : 0.0;
+}
 
 /// An empty block: sizes set, inner nodes at position(i, j, k), metrics set.
 template <int D>

@@ -7,24 +7,10 @@
 
 #include "boundary/links.hpp"
 #include "grid/loops.hpp"
+#include "grid/metrics.hpp"
 
 namespace littoral::fv {
 namespace {
-
-template <int D>
-double face_measure(const Block<D>& block, std::size_t d, std::size_t c) {
-  double s2 = 0.0;
-  for (std::size_t k = 0; k < D; ++k) s2 += block.area[d][k][c] * block.area[d][k][c];
-  return std::sqrt(s2);
-}
-
-/// Thickness of a cell along d: volume over the mean of its two faces.
-template <int D>
-double thickness(const Block<D>& block, std::size_t d, std::size_t c) {
-  const std::size_t up = c + static_cast<std::size_t>(block.extent.stride[d]);
-  const double s = 0.5 * (face_measure(block, d, c) + face_measure(block, d, up));
-  return s > 0.0 ? block.volume[c] / s : 0.0;
-}
 
 template <int D>
 void keep_larger(Worst<D>& worst, double value, const std::array<int, D>& cell) {

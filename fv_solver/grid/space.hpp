@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 
+#include "grid/between.hpp"
 #include "grid/block.hpp"
 #include "littoral/coupler/types.hpp"
 
@@ -24,9 +25,7 @@ coupler::Vec3 vector_in_space(const std::array<double, D>& v) {
 
 template <int D>
 coupler::Vec3 centre_in_space(const Block<D>& block, std::ptrdiff_t c) {
-  std::array<double, D> x;
-  for (std::size_t k = 0; k < D; ++k) x[k] = block.centre[k][static_cast<std::size_t>(c)];
-  return vector_in_space<D>(x);
+  return vector_in_space<D>(centre(block, c));
 }
 
 }  // namespace littoral::fv

@@ -15,8 +15,6 @@ LevelOverlap<D> level_overlap(const std::vector<Block<D>>& blocks, const Layout<
   };
   overlap.any = layout.owners.ranks.any(std::any_of(blocks.begin(), blocks.end(), interpolated));
   if (!overlap.any) return overlap;
-  overlap.component = layout.component;
-  overlap.period = layout.period;
   for (const Block<D>& block : blocks) overlap.centre.push_back(block.centre);
   return overlap;
 }
@@ -27,8 +25,6 @@ LevelOverlap<D> coarsen_overlap(const LevelOverlap<D>& fine,
                                 const std::vector<const LevelGrid<D>*>& coarse_grids) {
   LevelOverlap<D> coarse;
   coarse.any = fine.any;
-  coarse.component = fine.component;
-  coarse.period = fine.period;
   for (std::size_t b = 0; b < fine.centre.size(); ++b) {
     const LevelGrid<D>&from = *fine_grids[b], &to = *coarse_grids[b];
     std::array<int, D> ratio;
@@ -76,8 +72,9 @@ void add_open_ghosts(const LevelGrid<D>& grid, const GhostSources<D>& sources, s
 template <int D>
 void link_corrections(LevelOverlap<D>& overlap, const std::vector<const LevelGrid<D>*>& grids,
                       const std::vector<BlockShape<D>>& shapes, const std::vector<JoinSide<D>>& joins,
-                      const Owners& owners) {
-  const GhostSources<D> sources = ghost_sources<D>(shapes, overlap.period, joins);
+                      const Layout<D>& layout) {
+  const Owners& owners = layout.owners;
+  const GhostSources<D> sources = ghost_sources<D>(shapes, layout.period, joins);
   std::vector<const VectorField<D>*> centre;
   std::vector<std::vector<std::uint8_t>> solved;
   for (std::size_t i = 0; i < grids.size(); ++i) {
@@ -107,7 +104,7 @@ void link_corrections(LevelOverlap<D>& overlap, const std::vector<const LevelGri
     });
     add_open_ghosts<D>(*grids[i], sources, b, cells.centre[b], fringes);
   }
-  const std::vector<OverlapBlock<D>> blocks = cells.blocks(shapes, overlap.component);
+  const std::vector<OverlapBlock<D>> blocks = cells.blocks(shapes, layout.component);
   OversetLinks<D> links = find_donors<D>(blocks, sources, fringes, true, orphans);
   // a hole beside solved cells is a region's where no other component is near: its correction stays 0
   const OversetLinks<D> further = find_donors<D>(blocks, sources, holes, false, orphans);
@@ -123,9 +120,9 @@ template LevelOverlap<3> coarsen_overlap<3>(const LevelOverlap<3>&, const std::v
                                             const std::vector<const LevelGrid<3>*>&);
 template void link_corrections<2>(LevelOverlap<2>&, const std::vector<const LevelGrid<2>*>&,
                                   const std::vector<BlockShape<2>>&, const std::vector<JoinSide<2>>&,
-                                  const Owners&);
+                                  const Layout<2>&);
 template void link_corrections<3>(LevelOverlap<3>&, const std::vector<const LevelGrid<3>*>&,
                                   const std::vector<BlockShape<3>>&, const std::vector<JoinSide<3>>&,
-                                  const Owners&);
+                                  const Layout<3>&);
 
 }  // namespace littoral::fv

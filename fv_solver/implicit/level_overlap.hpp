@@ -12,11 +12,9 @@ namespace littoral::fv {
 /// How the blocks of one level overlap: what the interpolation of corrections between them needs.
 template <int D>
 struct LevelOverlap {
-  bool any = false;                                          // on all ranks
-  std::vector<VectorField<D>> centre;                        // [m] of each own block's cells, inner ones
-  std::vector<std::size_t> component;                        // of all blocks
-  std::vector<std::array<std::array<double, D>, D>> period;  // of all blocks, see GhostSources
-  DonorLinks<D> links;                                       // of corrections
+  bool any = false;                    // on all ranks
+  std::vector<VectorField<D>> centre;  // [m] of each own block's cells, inner ones
+  DonorLinks<D> links;                 // of corrections
 
   bool empty() const { return !any; }
 };
@@ -35,11 +33,11 @@ LevelOverlap<D> coarsen_overlap(const LevelOverlap<D>& fine,
 /// fringe or hole between components (interpolated or blanked) gets its correction from solved cells of other
 /// components on the same level; a fringe whose dual cell is not there, which happens where a coarse fringe
 /// lies a coarse cell away, from the nearest one. For the search, and only for it, every rank gets the
-/// centres of all blocks' cells and which of them are solved. grids: own ones; shapes, joins: of all blocks.
-/// comm collective
+/// centres of all blocks' cells and which of them are solved. grids: own ones; shapes, joins: of all blocks
+/// on this level; layout: of the finest. comm collective
 template <int D>
 void link_corrections(LevelOverlap<D>& overlap, const std::vector<const LevelGrid<D>*>& grids,
                       const std::vector<BlockShape<D>>& shapes, const std::vector<JoinSide<D>>& joins,
-                      const Owners& owners);
+                      const Layout<D>& layout);
 
 }  // namespace littoral::fv

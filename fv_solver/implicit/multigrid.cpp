@@ -24,6 +24,7 @@ struct Multigrid<D, Real>::Level {
   JoinLinks<D> links;                      // first ghost layer
   LevelOverlap<D> overlap;
   std::size_t n_steps = 0;  // of a sweep: colours of all directions, the most of any block of any rank
+  std::vector<std::vector<Real*>> e_arrays, r_arrays;  // [block][component] of the corrections, residuals
 
   void set_links(const Owners& owners) {
     std::vector<Extent<D>> extents;
@@ -63,12 +64,16 @@ Multigrid<D, Real>::Multigrid(std::vector<LevelGrid<D>> blocks, const MultigridO
   for (;;) {
     Level& level = *levels_.back();
     const std::vector<const LevelGrid<D>*> grids = level.grids();
-    if (!level.overlap.empty()) link_corrections<D>(level.overlap, grids, level.shapes, level.joins, owners_);
+    if (!level.overlap.empty()) link_corrections<D>(level.overlap, grids, level.shapes, level.joins, layout);
     for (auto& block : level.blocks) {
       block.directions = stiff_directions(block.grid);
       for (int d : block.directions) block.operators.emplace_back(block.grid, d);
       for (Correction<D, Real>* field : {&block.b, &block.e, &block.r})
         field->assign_zero(block.grid.extent.size);
+      level.e_arrays.emplace_back();
+      level.r_arrays.emplace_back();
+      for (auto& field : block.e.q) level.e_arrays.back().push_back(field.data());
+      for (auto& field : block.r.q) level.r_arrays.back().push_back(field.data());
     }
     level.count_steps(owners_.ranks);
     level.ratios = joint_ratios<D>(level.shapes, level.joins);
@@ -166,14 +171,14 @@ void Multigrid<D, Real>::build(const std::vector<const State<D>*>& states,
                                const CorrectionPhysics<D>& physics, const std::vector<const Field*>& forcing,
                                const std::vector<Field>* phi) {
   if (!forcing.empty()) set_forcing(forcing);
-  has_surface_ = phi != nullptr;
-  if (has_surface_) set_surface(*phi);
+  if (phi != nullptr) set_surface(*phi);
+  floating_ = closed_ && phi == nullptr && physics.fluid.inverse_c2 == 0.0;
   // A free pressure level makes the coarsest operator singular; the right side has no such part, so a small
   // anchor there changes nothing but the division by zero.
   constexpr double k_anchor = 1e-4;
   for (std::size_t l = 0; l < levels_.size(); ++l) {
     const bool coarsest = l + 1 == levels_.size();
-    const double anchor = coarsest && closed() && physics.fluid.inverse_c2 == 0.0 ? k_anchor : 0.0;
+    const double anchor = coarsest && floating_ ? k_anchor : 0.0;
     CorrectionPhysics<D> here = physics;
     here.jump = options_.jump[std::min(l, options_.jump.size() - 1)];
     for (std::size_t i = 0; i < levels_[l]->blocks.size(); ++i) {
@@ -221,19 +226,7 @@ void Multigrid<D, Real>::exchange(Level& level) {
   if (!level.overlap.links.empty()) interpolate(level);
   for (auto& block : level.blocks)
     for (auto& field : block.e.q) fill_periodic(block.grid, field);
-  level.links.template copy_fields<Real>(
-      pointers(level, [](BlockLevel& block) -> Correction<D, Real>& { return block.e; }), true);
-}
-
-template <int D, class Real>
-template <class FieldOf>
-std::vector<std::vector<Real*>> Multigrid<D, Real>::pointers(Level& level, FieldOf&& field_of) {
-  std::vector<std::vector<Real*>> fields;
-  for (auto& block : level.blocks) {
-    fields.emplace_back();
-    for (auto& field : field_of(block).q) fields.back().push_back(field.data());
-  }
-  return fields;
+  level.links.template copy_fields<Real>(level.e_arrays, true);
 }
 
 template <int D, class Real>
@@ -250,10 +243,10 @@ void Multigrid<D, Real>::interpolate(Level& level) {
 }
 
 template <int D, class Real>
-template <class FieldOf>
-void Multigrid<D, Real>::fill_for_transfer(Level& level, FieldOf&& field_of) {
-  for (auto& block : level.blocks) fill_correction_ghosts(block.grid, field_of(block));
-  level.links.template copy_fields<Real>(pointers(level, field_of));
+void Multigrid<D, Real>::fill_for_transfer(Level& level, Correction<D, Real> BlockLevel::*field,
+                                           const std::vector<std::vector<Real*>>& arrays) {
+  for (auto& block : level.blocks) fill_correction_ghosts(block.grid, block.*field);
+  level.links.template copy_fields<Real>(arrays);
 }
 
 template <int D, class Real>
@@ -311,11 +304,11 @@ void Multigrid<D, Real>::descend(std::size_t l, bool fresh) {
     else
       op.residual(block.b, block.e, block.r);
   }
-  fill_for_transfer(level, [](BlockLevel& block) -> Correction<D, Real>& { return block.r; });
+  fill_for_transfer(level, &BlockLevel::r, level.r_arrays);
   for (std::size_t i = 0; i < level.blocks.size(); ++i)
     level.blocks[i].transfer->restrict_residual(level.blocks[i].r, next.blocks[i].b);
   descend(l + 1, true);
-  fill_for_transfer(next, [](BlockLevel& block) -> Correction<D, Real>& { return block.e; });
+  fill_for_transfer(next, &BlockLevel::e, next.e_arrays);
   for (std::size_t i = 0; i < level.blocks.size(); ++i)
     level.blocks[i].transfer->add_prolonged(next.blocks[i].e, level.blocks[i].e);
   exchange(level);

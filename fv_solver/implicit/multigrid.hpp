@@ -53,9 +53,9 @@ class Multigrid {
   /// b - A e on the finest level, into `r`. For tests.
   void residual(std::size_t i, Correction<D, Real>& r);
 
-  bool closed() const {
-    return closed_ && !has_surface_;
-  }  ///< nothing on the boundaries anchors the pressure
+  /// Nothing anchors the pressure, neither boundaries nor a surface nor compression: its level is free. Of
+  /// the last build.
+  bool floating() const { return floating_; }
   int n_levels() const;
   const LevelGrid<D>& grid(int level, std::size_t i) const;
   const std::vector<int>& directions(std::size_t i) const;  ///< of the lines, finest level
@@ -70,18 +70,17 @@ class Multigrid {
   void exchange(Level& level);
   /// Interpolated cells: the right side too, so that their identity rows keep the value.
   void interpolate(Level& level);
-  /// Ghosts for the interpolation between levels, edges and corners included. field: of a block
-  template <class FieldOf>
-  void fill_for_transfer(Level& level, FieldOf&& field_of);
-  template <class FieldOf>
-  static std::vector<std::vector<Real*>> pointers(Level& level, FieldOf&& field_of);
+  /// Ghosts for the interpolation between levels, edges and corners included. field: of a block; arrays: the
+  /// same of all blocks
+  void fill_for_transfer(Level& level, Correction<D, Real> BlockLevel::*field,
+                         const std::vector<std::vector<Real*>>& arrays);
   void descend(std::size_t l, bool fresh);
   void set_forcing(const std::vector<const Field*>& forcing);
   void set_surface(const std::vector<Field>& phi);
   std::vector<std::unique_ptr<Level>> levels_;
   MultigridOptions options_;
   Owners owners_;
-  bool closed_ = false, has_surface_ = false;
+  bool closed_ = false, floating_ = false;  // closed: nothing on the boundaries anchors the pressure
 };
 
 }  // namespace littoral::fv

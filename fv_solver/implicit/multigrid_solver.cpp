@@ -137,12 +137,12 @@ struct MultigridSolver<D, Real>::Levels {
     });
   }
 
-  void read_correction(bool floating) {
+  void read_correction() {
     for_each_solved([&](std::size_t b, std::size_t c, std::size_t at) {
       const auto& e = multigrid.correction(b);
       for (std::size_t i = 0; i <= D; ++i) d[at + i] = static_cast<double>(e.q[i][c]);
     });
-    if (!floating) return;
+    if (!multigrid.floating()) return;
     const auto n = static_cast<std::ptrdiff_t>(d.size() / (D + 1));
     const auto sum =
         ordered_sums<1>(n, [&](std::ptrdiff_t begin, std::ptrdiff_t end, std::array<double, 1>& s) {
@@ -213,8 +213,6 @@ StepReport MultigridSolver<D, Real>::solve(const StepProblem<D>& problem, const 
     rates.push_back(forcing.active() ? &forcing.rate : nullptr);
     if (forcing.active()) physics.forcing_psi = forcing.psi;
   }
-  const bool floating =
-      levels.multigrid.closed() && problem.surface == nullptr && physics.fluid.inverse_c2 == 0.0;
   levels.anderson.forget();
   StepReport report;
   double round_off = 0.0;
@@ -239,7 +237,7 @@ StepReport MultigridSolver<D, Real>::solve(const StepProblem<D>& problem, const 
       water = now;
     }
     levels.multigrid.cycle();
-    levels.read_correction(floating);
+    levels.read_correction();
     levels.anderson.mix(levels.r, levels.d);
     levels.apply(q, physics);
   }

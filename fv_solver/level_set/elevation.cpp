@@ -5,17 +5,11 @@
 #include <limits>
 
 #include "grid/donor_patch.hpp"
+#include "grid/small_matrix.hpp"
 #include "grid/space.hpp"
 #include "littoral/coupler/donor_search.hpp"
 
 namespace littoral::fv {
-namespace {
-
-double along(const coupler::Vec3& a, const coupler::Vec3& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-}  // namespace
 
 template <int D>
 ElevationLine<D>::ElevationLine(const std::vector<Block<D>>& blocks, const coupler::Vec3& through,
@@ -28,7 +22,7 @@ ElevationLine<D>::ElevationLine(const std::vector<Block<D>>& blocks, const coupl
     geometry.patches.push_back(donor_patch<D>(blocks[b], 1, cells));
     block_of.resize(cells.size(), b);
     for (std::size_t i = first; i < cells.size(); ++i) {
-      const double height = along(centre_in_space<D>(blocks[b], static_cast<std::ptrdiff_t>(cells[i])), up);
+      const double height = dot(centre_in_space<D>(blocks[b], static_cast<std::ptrdiff_t>(cells[i])), up);
       lowest = std::min(lowest, height);
       highest = std::max(highest, height);
     }
@@ -36,7 +30,7 @@ ElevationLine<D>::ElevationLine(const std::vector<Block<D>>& blocks, const coupl
   if (!(highest > lowest)) return;
   const coupler::DonorSearch search(geometry, D);
   constexpr double k_coarsest = 1e-3;  // of the grid's height, where the line is outside of it
-  const double offset = along(through, up);
+  const double offset = dot(through, up);
   double step = k_coarsest * (highest - lowest);
   bool before = false;
   std::int64_t hint = -1;
@@ -60,7 +54,7 @@ ElevationLine<D>::ElevationLine(const std::vector<Block<D>>& blocks, const coupl
       place.cell.push_back(cells[i]);
       place.weight.push_back(donor.weight[k]);
       const double h =
-          along(centre_in_space<D>(blocks[block_of[i]], static_cast<std::ptrdiff_t>(cells[i])), up);
+          dot(centre_in_space<D>(blocks[block_of[i]], static_cast<std::ptrdiff_t>(cells[i])), up);
       low = std::min(low, h);
       high = std::max(high, h);
     }

@@ -105,21 +105,22 @@ void VelocityExtension<D>::gradients_of_water(const std::vector<Block<D>>& block
 template <int D>
 void VelocityExtension<D>::extend(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange,
                                   const Band<D>& band, const SurfacePatches<D>& patches,
-                                  const std::vector<Field>& phi, int layers,
+                                  const std::vector<WetMask>& wet, int layers,
                                   const std::vector<VectorField<D>*>& u) {
   const std::size_t n = blocks.size();
   gradient_.resize(n);
   reached_.resize(n);
   std::vector<std::vector<Field*>> fields(D + D * D + 1);
   for (std::size_t b = 0; b < n; ++b) {
-    reached_[b].resize(phi[b].size());
-    for (std::size_t c = 0; c < phi[b].size(); ++c) reached_[b][c] = phi[b][c] < 0.0 ? 0.0 : k_beyond;
+    const std::size_t size = blocks[b].extent.size;
+    reached_[b].resize(size);
+    for (std::size_t c = 0; c < size; ++c) reached_[b][c] = wet[b][c] != 0 ? 0.0 : k_beyond;
     std::size_t number = 0;
     fields[number++].push_back(&reached_[b]);
     for (std::size_t k = 0; k < D; ++k) {
       fields[number++].push_back(&(*u[b])[k]);
       for (std::size_t l = 0; l < D; ++l) {
-        gradient_[b][k][l].resize(phi[b].size());
+        gradient_[b][k][l].resize(size);
         fields[number++].push_back(&gradient_[b][k][l]);
       }
     }

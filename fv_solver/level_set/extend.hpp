@@ -7,7 +7,7 @@
 
 namespace littoral::fv {
 
-/// Continues u linearly from water (phi < 0) into the first layers of air cells:
+/// Continues u linearly from water into the first layers of air cells:
 ///   u_c = sum_b w_b (u_b + G_b (x_c - x_b)),  G_c = sum_b w_b G_b
 /// over the neighbours b (diagonals included) that are water or were reached before, weighted with how near
 /// they are and how well x_c - x_b follows the surface's normal; G_b of water is the least-squares gradient
@@ -17,11 +17,11 @@ class VelocityExtension {
  public:
   /// in/out u[block]: of one time level, its air cells set `layers` deep; in the ghosts only those that stand
   /// for cells are: call Exchange::states
-  /// phi: tells water from air; may have moved on since the band and the patches, whose normals are used
-  /// pre ghosts of u and phi current; the band has more than `layers` layers
-  /// comm exchange of u, its gradient and a mark, once a layer
+  /// wet: may have changed since the band and the patches, whose normals are used
+  /// pre ghosts of u and wet current; the band has more than `layers` layers
+  /// comm exchange of u, its gradient and a mark: layers + 2 times
   void extend(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange, const Band<D>& band,
-              const SurfacePatches<D>& patches, const std::vector<Field>& phi, int layers,
+              const SurfacePatches<D>& patches, const std::vector<WetMask>& wet, int layers,
               const std::vector<VectorField<D>*>& u);
 
  private:
@@ -42,7 +42,7 @@ class SurfaceVelocity {
  public:
   /// phi: may have moved on since the band and the patches
   /// pre u is continued into two layers of air at least, ghosts of u and phi current
-  /// comm exchange of u and its gradient at the bases once a layer, of u_s once
+  /// comm exchange of u and its gradient at the bases after each layer but the last, of u_s once
   void follow(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange, const Band<D>& band,
               const SurfacePatches<D>& patches, const std::vector<Field>& phi,
               const std::vector<const VectorField<D>*>& u, std::vector<VectorField<D>>& u_s);

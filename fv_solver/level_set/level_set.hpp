@@ -19,9 +19,7 @@ struct LevelSetOptions {
 };
 
 /// What a scene with a free surface holds beside p and u; nothing of it exists in other scenes. The functions
-/// of this folder say what is done with it; the order of a step is the stepper's:
-///   inner iteration  extension, follower, transport       (phi goes with the flow, no lag)
-///   end of the step  reinitialise, extend the levels that the next step reads
+/// of this folder say what is done with it, FreeSurface in which order.
 template <int D>
 struct LevelSet {
   LevelSetOptions options;

@@ -37,6 +37,20 @@ double advection(const Block<D>& block, const double* phi, const SpaceVector<D>&
 
 bool moves(CellStatus status) { return status == CellStatus::computed || status == CellStatus::forced; }
 
+/// Contravariant velocity at a cell's centre: cells a second along each direction of the grid.
+template <int D>
+std::array<double, D> index_velocity(const Block<D>& block, const VectorField<D>& u, std::ptrdiff_t c) {
+  const auto i = static_cast<std::size_t>(c);
+  std::array<double, D> rate;
+  for (std::size_t d = 0; d < D; ++d) {
+    const auto up = static_cast<std::size_t>(c + block.extent.stride[d]);
+    double flow = 0.0;
+    for (std::size_t k = 0; k < D; ++k) flow += 0.5 * (block.area[d][k][i] + block.area[d][k][up]) * u[k][i];
+    rate[d] = flow / block.volume[i];
+  }
+  return rate;
+}
+
 /// R of the at-th cell of the band [m/s] and, in `diagonal`, what a sweep divides by [1/s].
 template <int D>
 double cell_residual(const Block<D>& block, std::size_t b, const SurfaceStep<D>& step,
@@ -63,36 +77,6 @@ double cell_residual(const Block<D>& block, std::size_t b, const SurfaceStep<D>&
 }
 
 }  // namespace
-
-template <int D>
-std::array<double, D> index_velocity(const Block<D>& block, const VectorField<D>& u, std::ptrdiff_t c) {
-  const auto i = static_cast<std::size_t>(c);
-  std::array<double, D> rate;
-  for (std::size_t d = 0; d < D; ++d) {
-    const auto up = static_cast<std::size_t>(c + block.extent.stride[d]);
-    double flow = 0.0;
-    for (std::size_t k = 0; k < D; ++k) flow += 0.5 * (block.area[d][k][i] + block.area[d][k][up]) * u[k][i];
-    rate[d] = flow / block.volume[i];
-  }
-  return rate;
-}
-
-template <int D>
-void transport_residual(const std::vector<Block<D>>& blocks, const SurfaceStep<D>& step,
-                        const std::vector<VectorField<D>>& surface_velocity, const std::vector<Field>& phi,
-                        std::vector<Field>& r) {
-  r.resize(blocks.size());
-  for (std::size_t b = 0; b < blocks.size(); ++b) {
-    r[b].assign(blocks[b].extent.size, 0.0);
-    const auto cells = step.band.cells(b);
-    for (std::ptrdiff_t i = 0; i < cells.size(); ++i) {
-      const auto c = static_cast<std::size_t>(cells[i]);
-      if (!moves(blocks[b].status[c])) continue;
-      double diagonal = 0.0;
-      r[b][c] = cell_residual<D>(blocks[b], b, step, surface_velocity[b], phi[b].data(), i, diagonal);
-    }
-  }
-}
 
 template <int D>
 double transport(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange, const SurfaceStep<D>& step,
@@ -133,14 +117,6 @@ double surface_rate(const std::vector<Block<D>>& blocks, const Band<D>& band,
   return largest;
 }
 
-template std::array<double, 2> index_velocity<2>(const Block<2>&, const VectorField<2>&, std::ptrdiff_t);
-template std::array<double, 3> index_velocity<3>(const Block<3>&, const VectorField<3>&, std::ptrdiff_t);
-template void transport_residual<2>(const std::vector<Block<2>>&, const SurfaceStep<2>&,
-                                    const std::vector<VectorField<2>>&, const std::vector<Field>&,
-                                    std::vector<Field>&);
-template void transport_residual<3>(const std::vector<Block<3>>&, const SurfaceStep<3>&,
-                                    const std::vector<VectorField<3>>&, const std::vector<Field>&,
-                                    std::vector<Field>&);
 template double transport<2>(const std::vector<Block<2>>&, const Exchange<2>&, const SurfaceStep<2>&,
                              const std::vector<VectorField<2>>&, int, std::vector<Field>&);
 template double transport<3>(const std::vector<Block<3>>&, const Exchange<3>&, const SurfaceStep<3>&,

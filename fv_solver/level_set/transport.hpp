@@ -31,17 +31,7 @@ struct SurfaceStep {
   const SurfacePatches<D>& patches;
 };
 
-/// Contravariant velocity at a cell's centre: cells a second along each direction of the grid.
-template <int D>
-std::array<double, D> index_velocity(const Block<D>& block, const VectorField<D>& u, std::ptrdiff_t c);
-
-/// out r [m/s] (resized, 0 in other cells); pre ghosts of phi current; comm local
-template <int D>
-void transport_residual(const std::vector<Block<D>>& blocks, const SurfaceStep<D>& step,
-                        const std::vector<VectorField<D>>& surface_velocity, const std::vector<Field>& phi,
-                        std::vector<Field>& r);
-
-/// Point-implicit sweeps phi -= R / (a0 + rate + 3/2 sum |U_d|), U the index velocity. All cells are updated
+/// Point-implicit sweeps phi -= R / (a0 + rate + 3/2 sum |U_d|), U cells a second. All cells are updated
 /// at once, so their order does not matter. A sweep leaves .26 of the error at a surface CFL of .3, .57 at 1,
 /// .94 at 5. in/out phi, ghosts current before and after; comm exchange of phi once a sweep returns the
 /// largest residual before the last sweep [m/s], of these blocks

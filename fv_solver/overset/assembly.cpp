@@ -5,6 +5,7 @@
 #include <set>
 
 #include "boundary/links.hpp"
+#include "grid/between.hpp"
 #include "grid/loops.hpp"
 #include "grid/metrics.hpp"
 #include "grid/space.hpp"
@@ -20,13 +21,6 @@ template <int D>
 bool any_overset(const Block<D>& block) {
   return std::any_of(block.windows.begin(), block.windows.end(),
                      [](const Window<D>& w) { return w.condition == Condition::overset; });
-}
-
-template <int D>
-std::array<double, D> centre(const Block<D>& block, std::ptrdiff_t cell) {
-  std::array<double, D> x;
-  for (std::size_t k = 0; k < D; ++k) x[k] = block.centre[k][static_cast<std::size_t>(cell)];
-  return x;
 }
 
 /// Layer 0 at the overset windows.

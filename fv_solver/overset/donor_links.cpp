@@ -48,14 +48,14 @@ DonorLinks<D>::DonorLinks(const OversetLinks<D>& links, const Owners& owners) : 
 }
 
 template <int D>
-Halo& DonorLinks<D>::halo(std::size_t n) const {
-  for (auto& sized : halos_)
-    if (sized.n == n) return sized.halo;
+typename DonorLinks<D>::Sized& DonorLinks<D>::sized(std::size_t n) const {
+  for (Sized& sized : sized_)
+    if (sized.n == n) return sized;
   std::vector<Halo::Peer> messages;
   for (const Peer& peer : peers_)
     messages.push_back({peer.rank, peer.gives.size() * n * sizeof(double), peer.takes * n * sizeof(double)});
-  halos_.push_back({n, Halo(ranks_, messages)});
-  return halos_.back().halo;
+  sized_.push_back({n, Halo(ranks_, messages), {}, std::vector<double>(n), std::vector<double>(n)});
+  return sized_.back();
 }
 
 template class DonorLinks<2>;

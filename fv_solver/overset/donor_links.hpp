@@ -21,7 +21,6 @@ class DonorLinks {
   DonorLinks(const OversetLinks<D>& links, const Owners& owners);
 
   bool empty() const { return empty_; }  ///< on all ranks
-  std::size_t size() const { return receivers_.size(); }
 
   /// set(block, cell, values) with the n interpolated values of every receiver; get(block, cell, values)
   /// gives those of a donor. Blocks are the rank's own. Donors are never receivers, so the order is free.
@@ -44,26 +43,26 @@ class DonorLinks {
     std::vector<CellName<D>> gives;
     std::size_t takes = 0;
   };
-  Halo& halo(std::size_t n) const;
+  struct Sized {
+    std::size_t n;
+    Halo halo;
+    std::vector<double> sent, own, sum;
+  };
+  Sized& sized(std::size_t n) const;
 
   bool empty_ = true;
   Ranks ranks_;
   std::vector<Receiver> receivers_;
   std::vector<Peer> peers_;
-  struct Sized {
-    std::size_t n;
-    Halo halo;
-  };
-  mutable std::vector<Sized> halos_;  // made at the first use of so many values
+  mutable std::vector<Sized> sized_;  // made at the first use of so many values
 };
 
 template <int D>
 template <class Get, class Set>
 void DonorLinks<D>::interpolate(std::size_t n, Get&& get, Set&& set) const {
   if (empty_) return;
-  std::vector<double> sent;
+  auto& [unused, messages, sent, own, sum] = sized(n);
   if (!peers_.empty()) {
-    Halo& messages = halo(n);
     for (std::size_t p = 0; p < peers_.size(); ++p) {
       double* out = messages.template out<double>(p);
       for (const CellName<D>& c : peers_[p].gives) {
@@ -73,12 +72,12 @@ void DonorLinks<D>::interpolate(std::size_t n, Get&& get, Set&& set) const {
     }
     messages.start();
     messages.wait();
+    sent.clear();
     for (std::size_t p = 0; p < peers_.size(); ++p) {
       const double* in = messages.template in<double>(p);
       sent.insert(sent.end(), in, in + n * peers_[p].takes);
     }
   }
-  std::vector<double> own(n), sum(n);
   for (const Receiver& r : receivers_) {
     sum.assign(n, 0.0);
     for (std::size_t k = 0; k < k_corners; ++k) {

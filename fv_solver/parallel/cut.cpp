@@ -17,14 +17,8 @@ template <int D>
 void copy_part(const Extent<D>& extent_from, const Field& from, const Index<D>& first,
                const Extent<D>& extent, Field& to) {
   to.resize(extent.size);
-  Index<D> lower, upper;
-  lower.fill(-k_ghost);
-  for (std::size_t d = 0; d < D; ++d) upper[d] = extent.n[d] + k_ghost;
-  for_each_index<D>(lower, upper, [&](const Index<D>& index) {
-    Index<D> there = index;
-    for (std::size_t d = 0; d < D; ++d) there[d] += first[d];
-    to[static_cast<std::size_t>(extent.at(index))] = from[static_cast<std::size_t>(extent_from.at(there))];
-  });
+  for_each_place<D>(extent, extent_from, first, true,
+                    [&](std::size_t here, std::size_t there) { to[here] = from[there]; });
 }
 
 template <int D>
@@ -60,12 +54,8 @@ class Cutter {
     }
     copy(from.volume, block.volume);
     block.status.assign(block.extent.size, CellStatus::fringe);
-    for_each_index<D>({}, n, [&](const Index<D>& index) {
-      Index<D> there = index;
-      for (std::size_t d = 0; d < D; ++d) there[d] += piece.lower[d];
-      block.status[static_cast<std::size_t>(block.extent.at(index))] =
-          from.status[static_cast<std::size_t>(from.extent.at(there))];
-    });
+    for_each_place<D>(block.extent, from.extent, piece.lower, false,
+                      [&](std::size_t here, std::size_t there) { block.status[here] = from.status[there]; });
     set_solved_mask(block);
     for (const Window<D>& w : from.windows) add_windows(piece, w, block);
     for (std::size_t d = 0; d < D; ++d)

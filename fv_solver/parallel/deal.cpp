@@ -6,6 +6,7 @@
 #include <string>
 
 #include "grid/loops.hpp"
+#include "grid/metrics.hpp"
 #include "littoral/error.hpp"
 
 namespace littoral::fv {
@@ -13,18 +14,6 @@ namespace {
 
 constexpr int k_least = 4;            // [cells] of a piece across a cut: below it, ghosts reach through
 constexpr double k_tolerance = 0.05;  // of a load that is not worth a cut
-
-/// Thickness of a cell in a direction: volume over the mean of the two faces' measures [m].
-template <int D>
-double thickness(const Block<D>& block, std::size_t d, std::size_t c) {
-  double s2 = 0.0;
-  for (std::size_t k = 0; k < D; ++k) {
-    const Field& area = block.area[d][k];
-    const double a = 0.5 * (area[c] + area[c + static_cast<std::size_t>(block.extent.stride[d])]);
-    s2 += a * a;
-  }
-  return block.volume[c] / std::sqrt(s2);
-}
 
 int trailing_zeros(int i) {
   int n = 0;

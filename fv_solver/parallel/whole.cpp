@@ -5,21 +5,11 @@
 namespace littoral::fv {
 namespace {
 
-/// body(offset in the block, offset in its whole) for cells, and ghosts where asked for.
 template <int D, class Body>
-void for_each_place(const Layout<D>& layout, std::size_t b, bool ghosts, Body&& body) {
-  const Extent<D>& here = layout.shape[b].extent;
-  const Extent<D> whole(layout.whole[layout.part[b].whole].cells);
-  std::array<int, D> lower{}, upper = here.n;
-  for (std::size_t d = 0; d < D && ghosts; ++d) {
-    lower[d] -= k_ghost;
-    upper[d] += k_ghost;
-  }
-  for_each_index<D>(lower, upper, [&](const std::array<int, D>& index) {
-    std::array<int, D> there = index;
-    for (std::size_t d = 0; d < D; ++d) there[d] += layout.part[b].first[d];
-    body(static_cast<std::size_t>(here.at(index)), static_cast<std::size_t>(whole.at(there)));
-  });
+void for_each_place_of(const Layout<D>& layout, std::size_t b, bool ghosts, Body&& body) {
+  const auto& part = layout.part[b];
+  for_each_place<D>(layout.shape[b].extent, Extent<D>(layout.whole[part.whole].cells), part.first, ghosts,
+                    body);
 }
 
 }  // namespace
@@ -39,8 +29,8 @@ std::vector<Field> gather_whole(const Layout<D>& layout, const std::vector<const
       const auto rank = static_cast<std::size_t>(layout.owners.rank[b]);
       const double* part = all[rank].data() + first[rank];
       Field& whole = wholes[layout.part[b].whole];
-      for_each_place<D>(layout, b, ghosts,
-                        [&](std::size_t here, std::size_t there) { whole[there] = part[here]; });
+      for_each_place_of<D>(layout, b, ghosts,
+                           [&](std::size_t here, std::size_t there) { whole[there] = part[here]; });
       first[rank] += layout.shape[b].extent.size;
     }
   }
@@ -50,7 +40,8 @@ std::vector<Field> gather_whole(const Layout<D>& layout, const std::vector<const
 template <int D>
 Field part_of(const Layout<D>& layout, std::size_t b, const Field& whole) {
   Field part(layout.shape[b].extent.size);
-  for_each_place<D>(layout, b, true, [&](std::size_t here, std::size_t there) { part[here] = whole[there]; });
+  for_each_place_of<D>(layout, b, true,
+                       [&](std::size_t here, std::size_t there) { part[here] = whole[there]; });
   return part;
 }
 

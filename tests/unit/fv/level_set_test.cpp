@@ -210,13 +210,18 @@ TYPED_TEST(LevelSetTest, LinearVelocityIsContinuedExactlyIntoAir) {
   };
   march.set_flow(linear, 0.0);
   std::vector<VectorField<D>*> at;
+  std::vector<WetMask> wet;
   for (std::size_t b = 0; b < march.blocks.size(); ++b) {
     at.push_back(&march.u[b]);
-    for (std::size_t c = 0; c < march.surface.phi[b].size(); ++c)
-      if (march.surface.phi[b][c] >= 0.0) march.u[b][0][c] = march.u[b][D - 1][c] = 1e9;
+    wet.emplace_back(march.surface.phi[b].size(), 1);
+    for (std::size_t c = 0; c < march.surface.phi[b].size(); ++c) {
+      if (march.surface.phi[b][c] < 0.0) continue;
+      wet[b][c] = 0;
+      march.u[b][0][c] = march.u[b][D - 1][c] = 1e9;
+    }
   }
-  march.surface.extension.extend(march.blocks, march.exchange, march.surface.band, march.surface.patches,
-                                 march.surface.phi, 3, at);
+  march.surface.extension.extend(march.blocks, march.exchange, march.surface.band, march.surface.patches, wet,
+                                 3, at);
   int reached = 0;
   for (std::size_t b = 0; b < march.blocks.size(); ++b)
     for (const std::ptrdiff_t c : march.surface.band.cells(b, 0, 3)) {
