@@ -21,13 +21,13 @@ struct BodySpec {
 
   std::string name;
   Shape shape = Shape::box;
-  coupler::Vec3 size = {0, 0,
-                        0};  // [m] box: lengths; wedge: base, width along y, height; plate: length, width
-  double apex = 0.0;         // [m] wedge: x of the apex, 0 above the middle of the base
-  double radius = 0.0;       // [m] cylinder, sphere
-  double length = 0.0;       // [m] cylinder
-  std::string file;          // stl: path, relative to scene.yaml
-  double scale = 1.0;        // stl: [m] that a unit of the file stands for
+  /// [m] box: lengths; wedge: base, width along y, height; plate: length, width
+  coupler::Vec3 size = {0, 0, 0};
+  double apex = 0.0;                   // [m] wedge: x of the apex, 0 above the middle of the base
+  double radius = 0.0;                 // [m] cylinder, sphere
+  double length = 0.0;                 // [m] cylinder
+  std::string file;                    // stl: path, relative to scene.yaml
+  double scale = 1.0;                  // stl: [m] that a unit of the file stands for
   coupler::Vec3 position = {0, 0, 0};  // [m]
   coupler::Vec3 rotation = {0, 0, 0};  // [deg] about x, then y, then z
   Fluid fluid = Fluid::outside;
