@@ -25,6 +25,20 @@ if(LITTORAL_SANITIZE)
                  INTERFACE $<$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>:${CMAKE_CURRENT_LIST_DIR}/sanitizer_defaults.cpp>)
 endif()
 
+if(LITTORAL_PRECOMPILE)
+  target_compile_options(littoral_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)  # for ccache
+endif()
+
+# littoral_precompile(target header ...): with LITTORAL_PRECOMPILE those of the standard library that most files read, and
+# the given ones, are read once for the target. Files name what they use all the same: other builds read them one by one.
+function(littoral_precompile target)
+  if(LITTORAL_PRECOMPILE)
+    target_precompile_headers(
+      ${target} PRIVATE <algorithm> <array> <cmath> <cstdint> <functional> <limits> <map> <memory> <optional> <sstream>
+      <string> <vector> ${ARGN})
+  endif()
+endfunction()
+
 # littoral_gtest(NAME name PREFIX ctest-prefix SOURCES ... LIBS ...): one GoogleTest program, each case a ctest.
 function(littoral_gtest)
   cmake_parse_arguments(T "" "NAME;PREFIX;TIMEOUT" "SOURCES;LIBS" ${ARGN})
@@ -33,6 +47,10 @@ function(littoral_gtest)
   endif()
   add_executable(${T_NAME} ${T_SOURCES})
   target_link_libraries(${T_NAME} PRIVATE ${T_LIBS} littoral_options GTest::gtest_main)
+  list(LENGTH T_SOURCES n_sources)
+  if(n_sources GREATER 3)
+    littoral_precompile(${T_NAME} <random> <gtest/gtest.h>)
+  endif()
   gtest_discover_tests(
     ${T_NAME}
     TEST_PREFIX ${T_PREFIX}.
