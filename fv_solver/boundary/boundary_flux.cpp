@@ -50,6 +50,7 @@ Flux<D> flux_of(double mass, const std::array<double, D>& u, double p, const std
 template <int D>
 void compute_boundary_fluxes(const Block<D>& block, const Fluid<D>& fluid, const WaveSpeeds& speeds,
                              double dt, const double* p, const State<D>& q, BoundaryFluxes<D>& fluxes) {
+  const MassSpeed speed = speeds.mass(dt, fluid.viscosity);
   for (std::size_t d = 0; d < D; ++d)
     for (auto& face : fluxes[d]) {
       const auto n = static_cast<std::size_t>(block.extent.cells() / block.extent.n[d]);
@@ -95,9 +96,9 @@ void compute_boundary_fluxes(const Block<D>& block, const Fluid<D>& fluid, const
           // one-sided Riemann problem: the wave from inside meets the given pressure. Where the flow turns
           // back, the cell's own velocity comes in.
           const double p_out = w.given_p[0][given];
-          const double c_p = speeds.mass(block.volume[i0] / frame.measure, dt);
           for (std::size_t k = 0; k < D; ++k) in.u[k] = 1.5 * q.u[k][i0] - 0.5 * q.u[k][i1];
-          const double flow = through<D>(in.u, area) + frame.measure * (in.p - p_out) / (fluid.density * c_p);
+          const double flow = through<D>(in.u, area) + frame.measure * (in.p - p_out) / fluid.density *
+                                                           speed.inverse(block.volume[i0] / frame.measure);
           if (flow < 0.0)
             for (std::size_t k = 0; k < D; ++k) in.u[k] = q.u[k][i0];
           f = flux_of<D>(fluid.rho(p_out + reference) * flow, in.u, p_out, area);
@@ -107,16 +108,17 @@ void compute_boundary_fluxes(const Block<D>& block, const Fluid<D>& fluid, const
           // still water needs a wave speed too: a small part of the flow's, as wave_speed: 0 documents
           constexpr double k_least_wave_speed = 0.1;
           FaceState<D> far;
-          double speed = 0.0;
+          double far_speed2 = 0.0;
           far.p = w.given_p[0][given];
           for (std::size_t k = 0; k < D; ++k) {
             far.u[k] = w.given_u[0][k][given];
             in.u[k] = q.u[k][i0];
-            speed += far.u[k] * far.u[k];
+            far_speed2 += far.u[k] * far.u[k];
           }
           in.p = p[i0];
-          const double c =
-              w.wave_speed > 0.0 ? w.wave_speed : std::max(std::sqrt(speed), k_least_wave_speed * speeds.c0);
+          const double c = w.wave_speed > 0.0
+                               ? w.wave_speed
+                               : std::max(std::sqrt(far_speed2), k_least_wave_speed * speeds.c0);
           const double flow_in = through<D>(in.u, area), flow_far = through<D>(far.u, area);
           const double flow =
               0.5 * (flow_in + flow_far) + 0.5 * frame.measure * (in.p - far.p) / (fluid.density * c);

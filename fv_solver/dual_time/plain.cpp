@@ -22,6 +22,7 @@ void for_each_row(const Block<D>& block, Body&& body) {
 template <int D>
 void PlainDualTime<D>::set_pseudo_steps(const StepProblem<D>& problem, const std::vector<State<D>>& q) {
   const Equations<D>& e = problem.equations;
+  const MassSpeed speed = e.speeds.mass(problem.time.dt, e.fluid.viscosity);
   pseudo_step_.resize(problem.blocks.size());
   beta_.resize(problem.blocks.size());
   for (std::size_t b = 0; b < problem.blocks.size(); ++b) {
@@ -46,7 +47,7 @@ void PlainDualTime<D>::set_pseudo_steps(const StepProblem<D>& problem, const std
           widest = std::max(widest, std::sqrt(s2));
         }
         // the thinnest side decides: a larger beta would make the dissipation across it unstable
-        const double c_p = e.speeds.mass(v / widest, problem.time.dt);
+        const double c_p = 1.0 / speed.inverse(v / widest);
         beta_[b][c] = c_p * c_p;
         pseudo_step_[b][c] = pseudo_cfl_ * v / (convection + c_p * measures + friction);
       }

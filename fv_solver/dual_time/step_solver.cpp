@@ -10,7 +10,13 @@ namespace littoral::fv {
 template <int D>
 void StepProblem<D>::evaluate(std::vector<State<D>>& q, std::vector<Residual<D>>& r) const {
   r.resize(blocks.size());
-  if (surface != nullptr) surface->follow(blocks, exchange, equations, q);
+  if (surface != nullptr)
+    timed(StepPhases::surface, [&] { surface->follow(blocks, exchange, equations, q); });
+  timed(StepPhases::residual, [&] { evaluate_rows(q, r); });
+}
+
+template <int D>
+void StepProblem<D>::evaluate_rows(std::vector<State<D>>& q, std::vector<Residual<D>>& r) const {
   exchange.states(blocks, q);
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     if (surface == nullptr) {

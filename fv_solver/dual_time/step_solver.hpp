@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "boundary/exchange.hpp"
+#include "dual_time/step_phases.hpp"
 #include "free_surface/free_surface.hpp"
 #include "grid/block.hpp"
 #include "physics/equations.hpp"
@@ -21,6 +22,15 @@ struct StepProblem {
   const std::vector<Forcing<D>>& forcing;
   FreeSurface<D>* surface = nullptr;  // null: none
   double t = 0.0;                     // [s] of the new level
+  StepPhases* phases = nullptr;       // null: not timed
+
+  /// Does `work` on the account of `phase`.
+  template <class Work>
+  void timed(StepPhases::Phase phase, Work&& work) const {
+    if (phases == nullptr) return work();
+    const auto timing = phases->scope(phase);
+    work();
+  }
 
   /// Lets the free surface follow the flow, refreshes the ghosts of q, then evaluates all residuals.
   /// comm collective, both
@@ -28,6 +38,8 @@ struct StepProblem {
   /// Size of a residual as a velocity: rms over the solved cells, weighted with volume, of
   /// R_u/(rho0 V) / (a0 + c0/h) and h R_p/(rho0 V), h = V^(1/D)  [m/s]. NaN if any is.
   double norm(const std::vector<Residual<D>>& r) const;
+  /// evaluate() with the surface where it is.
+  void evaluate_rows(std::vector<State<D>>& q, std::vector<Residual<D>>& r) const;
 };
 
 /// When the inner iteration of a step may end.

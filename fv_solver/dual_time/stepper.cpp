@@ -206,7 +206,8 @@ StepReport Stepper<D>::advance(double dt, const std::vector<Imposed<D>>& imposed
   time_ = t;
   ++steps_;
 
-  const StepProblem<D> problem{blocks_, exchange_, equations_, s, history_, forcing_, surface_.get(), t};
+  const StepProblem<D> problem{blocks_,  exchange_,      equations_, s,       history_,
+                               forcing_, surface_.get(), t,          &phases_};
   StepReport report;
   try {
     report = inner_->solve(problem, tolerance_, level_[0]);
@@ -214,7 +215,8 @@ StepReport Stepper<D>::advance(double dt, const std::vector<Imposed<D>>& imposed
     check("dt was " + number(dt) + " s; " + k_advice);  // names place and state where they show it
     throw StabilityError(std::string(lost.what()) + "; dt was " + number(dt) + " s");
   }
-  if (surface_) surface_->end(blocks_, exchange_, equations_, level_[0]);
+  if (surface_)
+    problem.timed(StepPhases::surface, [&] { surface_->end(blocks_, exchange_, equations_, level_[0]); });
   check("dt was " + number(dt) + " s; " + k_advice);
   return report;
 }

@@ -93,6 +93,9 @@ class Stepper {
   /// Forcing of (21) for the coming steps, one entry a block.
   std::vector<Forcing<D>>& forcing() { return forcing_; }
   InnerTolerance& tolerance() { return tolerance_; }
+  void set_inner(std::unique_ptr<StepSolver<D>> inner) { inner_ = std::move(inner); }
+  /// Where the time of all steps went.
+  const StepPhases& phases() const { return phases_; }
 
   /// Everything that a bitwise continuation needs, besides blocks and equations.
   struct Memory {
@@ -129,6 +132,7 @@ class Stepper {
   std::vector<Sponge<D>> sponges_;
   std::vector<Forcing<D>> forcing_;
   std::unique_ptr<FreeSurface<D>> surface_;
+  StepPhases phases_;
   std::vector<History<D>> history_;
   // q^n, q^n-1, q^n-2, and one more so that a restored step still knows its derivative
   std::array<std::vector<State<D>>, 4> level_;

@@ -243,8 +243,8 @@ class CutFlux {
     }
     const double measure = std::sqrt(s2);
     const double h = 0.5 * (block_.volume[low.near] + block_.volume[high.near]) / measure;
-    const double c_p = std::max(k_.c0, k_.kappa_over_dt * h);
-    const double flow = 0.5 * (through_l + through_r) + 0.5 * measure * (p_l - p_r) / (k_.rho0 * c_p);
+    const double flow =
+        0.5 * (through_l + through_r) + 0.5 * measure * (p_l - p_r) / k_.rho0 * k_.speed.inverse(h);
     const double p_mean = 0.5 * (p_l + p_r);
     const double p_face = p_mean + 0.5 * k_.rho0 * k_.c0 * (through_l - through_r) / measure;
     const double reference =

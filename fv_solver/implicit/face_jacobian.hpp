@@ -20,8 +20,11 @@ struct CorrectionPhysics {
   double forcing_psi = 0.0;  // [s^2/m^2] d rho/d p in the mass row's forcing
   double jump = 1.0;         // [-] of a level: part of the pressure's first-order jump in the mass flux (I8)
 
-  /// Between cells. In front of a known pressure the jump is whole in the residual, too: `speeds` there.
-  WaveSpeeds speeds_between_cells() const { return {speeds.c0, speeds.kappa / jump}; }
+  /// In front of a known pressure, where the jump is whole in the residual, too.
+  MassSpeed mass_speed() const { return speeds.mass(time.dt, fluid.viscosity); }
+  MassSpeed mass_speed_between_cells() const {
+    return WaveSpeeds{speeds.c0, speeds.kappa / jump}.mass(time.dt, fluid.viscosity);
+  }
 };
 
 /// T: a number, or one in each lane.
@@ -41,7 +44,8 @@ struct FaceState {
 /// Derivatives of the first-order flux through a face by the states on its two sides, scaled:
 /// unknowns (p / (rho0 c0), u), rows (mass c0 / rho0, momentum / rho0), so that the entries compare.
 ///
-///   m = rho [ (u_L + u_R).S / 2 - S (p_R - p_L) / (2 rho c_p) ],   c_p = max(c0, kappa h / (jump dt))
+///   m = rho [ (u_L + u_R).S / 2 - S (p_R - p_L) / (2 rho c_p) ],
+///       c_p = max(c0, kappa h / (jump dt), 2 nu/h)
 ///   F = m u_upwind + S (p_L + p_R)/2 - S rho c0 (u_R - u_L).n / 2
 ///       - rho nu/V_f [S^2 (u_R - u_L) + S (u_R - u_L).S]
 /// The last bracket is the full stress's compact part: friction along the face's normal counts twice. With
@@ -63,7 +67,7 @@ inline void face_jacobian(const Area& area, const T& volume, const FaceState<D, 
   const double c0 = physics.speeds.c0;
   const double density_by_p = c0 * physics.fluid.inverse_c2;  // d(rho/rho0)/dP
   const T h = volume / s;
-  const T pressure_term = 0.5 * c0 * s / physics.speeds_between_cells().mass(h, physics.time.dt);
+  const T pressure_term = 0.5 * c0 * s * physics.mass_speed_between_cells().inverse(h);
   const T zero{};
   const T out = flow > 0.0 ? flow : zero, in = flow > 0.0 ? zero : flow;
 
@@ -142,10 +146,10 @@ inline SmallMatrix<D> boundary_jacobian(EdgeCondition condition, const std::arra
       for (std::size_t j = 0; j < D; ++j) block[i + 1][j + 1] += rate * area[i] * area[j];
     }
   };
-  const auto carry = [&](double speed,
-                         double part) {  // m = part (u.S + S p/(rho0 speed)), and what it carries
+  const auto carry = [&](double slowness,
+                         double part) {  // m = part (u.S + S p slowness/rho0), and what it carries
     std::array<double, D + 1> m;
-    m[0] = part * c0 * s / speed + c0 * physics.fluid.inverse_c2 * std::max(flow, 0.0);
+    m[0] = part * c0 * s * slowness + c0 * physics.fluid.inverse_c2 * std::max(flow, 0.0);
     for (std::size_t k = 0; k < D; ++k) m[k + 1] = part * area[k];
     for (std::size_t j = 0; j <= D; ++j) {
       block[0][j] += c0 * m[j];
@@ -167,11 +171,11 @@ inline SmallMatrix<D> boundary_jacobian(EdgeCondition condition, const std::arra
       rub();
       break;
     case EdgeCondition::outflow:
-      carry(physics.speeds.mass(volume / s, physics.time.dt), 1.0);
+      carry(physics.mass_speed().inverse(volume / s), 1.0);
       break;
     case EdgeCondition::far_field: {
       const double speed = far_speed > 0.0 ? far_speed : std::max(std::sqrt(speed2), 0.1 * c0);
-      carry(speed, 0.5);
+      carry(1.0 / speed, 0.5);
       push(0.5);
       for (std::size_t i = 0; i < D; ++i)
         for (std::size_t j = 0; j < D; ++j) block[i + 1][j + 1] += 0.5 * speed * area[i] * area[j] / s;

@@ -219,8 +219,8 @@ StepReport MultigridSolver<D, Real>::solve(const StepProblem<D>& problem, const 
   long water = -1;  // version of the surface for which the levels were built
   for (;; ++report.cycles) {
     problem.evaluate(q, levels.rows);
-    report.norms.push_back(problem.norm(levels.rows));
-    levels.collect(physics);
+    problem.timed(StepPhases::residual, [&] { report.norms.push_back(problem.norm(levels.rows)); });
+    problem.timed(StepPhases::mixing, [&] { levels.collect(physics); });
     if (!std::isfinite(report.norms.back())) levels.complain(problem.blocks, report.cycles);
     if (report.cycles == 0) round_off = levels.round_off(problem.blocks, q, physics);
     report.converged =
@@ -231,15 +231,19 @@ StepReport MultigridSolver<D, Real>::solve(const StepProblem<D>& problem, const 
     if (report.cycles == 0 || now != water) {
       std::vector<const State<D>*> frozen;
       for (const auto& state : q) frozen.push_back(&state);
-      levels.multigrid.build(frozen, physics, rates,
-                             problem.surface != nullptr ? &problem.surface->phi() : nullptr);
+      problem.timed(StepPhases::jacobian, [&] {
+        levels.multigrid.build(frozen, physics, rates,
+                               problem.surface != nullptr ? &problem.surface->phi() : nullptr);
+      });
       levels.anderson.forget();
       water = now;
     }
-    levels.multigrid.cycle();
-    levels.read_correction();
-    levels.anderson.mix(levels.r, levels.d);
-    levels.apply(q, physics);
+    problem.timed(StepPhases::correction, [&] { levels.multigrid.cycle(); });
+    problem.timed(StepPhases::mixing, [&] {
+      levels.read_correction();
+      levels.anderson.mix(levels.r, levels.d);
+      levels.apply(q, physics);
+    });
   }
 }
 

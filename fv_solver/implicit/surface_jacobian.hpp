@@ -37,7 +37,7 @@ SurfaceJacobian<D> surface_jacobian(const std::array<double, D>& area, double vo
   if (s2 <= 0.0) return jacobian;
   const double s = std::sqrt(s2), c0 = physics.speeds.c0;
   std::array<double, D + 1> m;
-  m[0] = 0.5 * c0 * s / physics.speeds.mass(volume / s, physics.time.dt) +
+  m[0] = 0.5 * c0 * s * physics.mass_speed().inverse(volume / s) +
          c0 * physics.fluid.inverse_c2 * std::max(flow, 0.0);
   for (std::size_t k = 0; k < D; ++k) m[k + 1] = area[k];
   const double stiffness =

@@ -80,7 +80,8 @@ Output<D>::Output(const std::string& folder, const FvConfig& config, const suppo
     for (const char* part : {".f", ".dynamic_f"})
       for (std::size_t a = 0; a < 3; ++a)
         if (D == 3 || a != 1) columns.push_back(wall + part + k_axes[a]);
-  for (const auto& phase : timers.table()) columns.push_back("seconds_" + phase.first);
+  for (const auto& table : {timers.table(), stepper.phases().table()})
+    for (const auto& phase : table) columns.push_back("seconds_" + phase.first);
   columns.push_back("seconds_wait");
   scalars_.emplace(series(folder + "/scalars.csv", columns,
                           D == 2 ? "SI; per metre of width; seconds_*: wall time since the start"
@@ -112,7 +113,8 @@ void Output<D>::row(const Stepper<D>& stepper, const StepReport& report, double 
       for (std::size_t a = 0; a < 3; ++a)
         if (D == 3 || a != 1) values.push_back(load.force[a]);
   }
-  for (const auto& phase : timers_.table()) values.push_back(phase.second);
+  for (const auto& table : {timers_.table(), stepper.phases().table()})
+    for (const auto& phase : table) values.push_back(phase.second);
   values.push_back(waited);
   std::vector<double> seen = gauges_.values(stepper);
   seen.insert(seen.begin(), stepper.time());

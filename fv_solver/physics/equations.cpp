@@ -268,8 +268,12 @@ void Equations<D>::residual(const Block<D>& block, const State<D>& q, const Back
   const double* p = relative_pressure_.data();
   BoundaryFluxes<D> boundary;
   compute_boundary_fluxes<D>(block, fluid, speeds, time.dt, p, q, boundary);
-  const FluxConstants<D> constants{fluid.density,  fluid.reference_pressure, fluid.inverse_c2,
-                                   speeds.c0,      speeds.kappa / time.dt,   fluid.density * fluid.viscosity,
+  const FluxConstants<D> constants{fluid.density,
+                                   fluid.reference_pressure,
+                                   fluid.inverse_c2,
+                                   speeds.c0,
+                                   speeds.mass(time.dt, fluid.viscosity),
+                                   fluid.density * fluid.viscosity,
                                    upwinding(flux)};
   if (surface != nullptr)
     surface->faces.compute(block, fluid, constants, limiter != Limiter::none, surface->phi, surface->wet,

@@ -19,18 +19,31 @@ enum class Limiter : std::uint8_t { none, van_albada };
 enum class FluxScheme : std::uint8_t { upwind3, central4 };
 inline double upwinding(FluxScheme scheme) { return scheme == FluxScheme::upwind3 ? 1.0 : 0.25; }
 
-/// The two speeds of the Riemann problem (F8): c0 = sqrt(beta) in the momentum's dissipation; in the mass
-/// flux c_p = max(c0, kappa h/dt), which makes the dissipation of pressure the compact Laplacian of the
-/// projected equations. Residual, Jacobian and coarse levels use the same rule, each with its own h.
+/// The wave speed of the mass flux (F8), c_p = max(c0, kappa h/dt, 2 nu/h): pressure is damped by as much as
+/// the momentum's inertia or friction, whichever is larger, leaves of the compact Laplacian of the projected
+/// equations. Residual, Jacobian and coarse levels use the same rule, each with its own h.
+struct MassSpeed {
+  double slowest;    // [s/m] 1/c0
+  double inertia;    // [1/s] kappa/dt
+  double diffusion;  // [m^2/s] 2 nu
+  /// 1/c_p [s/m].   h: volume of the face's dual cell over the face's measure [m]
+  /// T: a number, or several of them in lanes
+  template <class T>
+  T inverse(const T& h) const {
+    const T wide = inertia * h * h, thin = diffusion + T{}, at_most = slowest + T{};
+    const T slow = h / (wide > thin ? wide : thin);
+    return slow < at_most ? slow : at_most;
+  }
+};
+
+/// The two speeds of the Riemann problem (F8): c0 = sqrt(beta) in the momentum's dissipation, c_p in the mass
+/// flux.
 struct WaveSpeeds {
   double c0 = 1.0;     // [m/s]
   double kappa = 0.5;  // [-]
-  /// h: volume of the face's dual cell over the face's measure [m]
-  /// T: a number, or several of them in lanes
-  template <class T>
-  T mass(const T& h, double dt) const {
-    const T least = c0 + T{}, wide = (kappa / dt) * h;
-    return wide > least ? wide : least;
+  MassSpeed mass(double dt, double viscosity) const {
+    constexpr double k_diffusion = 2.0;  // Fourier modes at rest: implicit/README.md
+    return {1.0 / c0, kappa / dt, k_diffusion * viscosity};
   }
 };
 

@@ -22,9 +22,9 @@ template <int D>
 struct FluxConstants {
   double rho0, p0, inverse_c2;
   double c0;
-  double kappa_over_dt;  // [1/s] 0: steady
-  double mu;             // [Pa s]
-  double upwinding;      // [-] a of u_f
+  MassSpeed speed;   // c_p
+  double mu;         // [Pa s]
+  double upwinding;  // [-] a of u_f
 };
 
 /// Third-order upwind-biased value on the near side of a face (F6), kappa = 1/3, from the far cell, the cell
@@ -67,8 +67,9 @@ void inviscid_row(const Block<D>& block, const double* p, const State<D>& q, std
   double* __restrict f_0 = out.momentum[0];
   double* __restrict f_1 = out.momentum[1];
   double* __restrict f_2 = out.momentum[D - 1];
-  const double c0 = k.c0, rho0 = k.rho0, kappa_over_dt = k.kappa_over_dt, half_rho_c0 = 0.5 * k.rho0 * k.c0;
+  const double c0 = k.c0, rho0 = k.rho0, half_rho_c0 = 0.5 * k.rho0 * k.c0;
   const double half_over_rho = 0.5 / k.rho0;
+  const MassSpeed speed = k.speed;
   const double inverse_c2 = k.inverse_c2, p0 = k.p0;
   const double half_upwinding = 0.5 * k.upwinding;
   // differences far below these are round-off, not structure
@@ -97,8 +98,8 @@ void inviscid_row(const Block<D>& block, const double* p, const State<D>& q, std
     const double measure = std::sqrt(s2);
     const double inverse_measure = 1.0 / measure;
     const double h = 0.5 * (volume[i] + volume[i - s]) * inverse_measure;
-    const double c_p = std::max(c0, kappa_over_dt * h);
-    const double flow = 0.5 * (through_l + through_r) + measure * (p_l - p_rt) * half_over_rho / c_p;
+    const double flow =
+        0.5 * (through_l + through_r) + measure * (p_l - p_rt) * half_over_rho * speed.inverse(h);
     const double p_mean = 0.5 * (p_l + p_rt);
     const double p_face = p_mean + half_rho_c0 * (through_l - through_r) * inverse_measure;
     double rho = rho0;

@@ -1,6 +1,8 @@
-// Shapes of cells: thin, stretched, skewed, alone, dead.
+// Shapes of cells: thin, stretched, skewed, alone, dead; grids that hardly overlap.
 #include <gtest/gtest.h>
 
+#include "littoral/error.hpp"
+#include "overset/assembly.hpp"
 #include "runs.hpp"
 
 namespace littoral::fv {
@@ -52,6 +54,61 @@ TEST(ExtremeCellsTest, SkewedByEightyDegrees) {
           return std::array<double, 2>{index[0] / 16.0 + shear * index[1] / 16.0, index[1] / 16.0};
         });
     EXPECT_LT(couette_error(block, 8, "skew [degree]", degrees), 1e-4) << degrees;
+  }
+}
+
+/// A turned patch of m x m cells over Couette flow: u = z is linear, so the fringes' interpolation is exact.
+/// NaN: refused, since a cell finds no donor.
+double patched_couette_error(int m, int overlap) {
+  constexpr int n = 24;
+  std::vector<Block<2>> blocks;
+  blocks.push_back(make_block<2>("channel", {n, n}, {true, false}, [](const std::array<int, 2>& index) {
+    return std::array<double, 2>{static_cast<double>(index[0]) / n, static_cast<double>(index[1]) / n};
+  }));
+  const double width = static_cast<double>(m) / n;
+  blocks.push_back(make_block<2>("patch", {m, m}, {}, [=](const std::array<int, 2>& index) {
+    const double a = width * (static_cast<double>(index[0]) / m - 0.5);
+    const double b = width * (static_cast<double>(index[1]) / m - 0.5);
+    return std::array<double, 2>{0.5 + 0.8 * a - 0.6 * b, 0.5 + 0.6 * a + 0.8 * b};
+  }));
+  close_with<2>(blocks[0], Condition::periodic);
+  set_face<2>(blocks[0], 1, 0, Condition::wall);
+  set_face<2>(blocks[0], 1, 1, Condition::wall, 1.0);
+  close_with<2>(blocks[1], Condition::overset);
+  OversetOptions options;
+  options.overlap = overlap;
+  OversetAssembly<2> assembly;
+  try {
+    assembly = assemble_overset<2>(blocks, options);
+  } catch (const ConfigError& orphans) {
+    std::printf("patch of %d cells, overlap %d: %.60s\n", m, overlap, orphans.what());
+    EXPECT_NE(std::string(orphans.what()).find("orphan"), std::string::npos);
+    return std::nan("");
+  }
+  Equations<2> equations;
+  equations.fluid.viscosity = 0.1;
+  InnerTolerance tolerance = three_orders();
+  tolerance.drop = 1e-6;
+  Stepper<2> stepper(std::move(blocks), equations, std::make_unique<MultigridSolver<2>>(), tolerance,
+                     std::move(assembly.links));
+  stepper.initialise([](const std::array<double, 2>&, double) { return PointState<2>{}; }, 0.0);
+  march(stepper, 100.0, 5, "patch of cells", m);
+  double worst = 0.0;
+  for (std::size_t b = 0; b < 2; ++b)
+    for_each_index<2>({}, stepper.blocks()[b].extent.n, [&](const std::array<int, 2>& index) {
+      const auto c = static_cast<std::size_t>(stepper.blocks()[b].extent.at(index));
+      if (stepper.blocks()[b].status[c] == CellStatus::blanked) return;
+      worst = std::max(worst, std::abs(stepper.state()[b].u[0][c] - stepper.blocks()[b].centre[1][c]));
+    });
+  return worst;
+}
+
+TEST(ExtremeCellsTest, GridsThatHardlyOverlap) {
+  EXPECT_LT(patched_couette_error(14, 3), 1e-5);
+  EXPECT_LT(patched_couette_error(14, 1), 1e-5);
+  for (const int m : {12, 10, 8, 6, 4, 2}) {  // too few cells for both fringes, sooner or later
+    const double error = patched_couette_error(m, 1);
+    EXPECT_TRUE(std::isnan(error) || error < 1e-5) << m << ": " << error;
   }
 }
 
