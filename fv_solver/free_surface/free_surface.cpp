@@ -80,6 +80,19 @@ void FreeSurface<D>::end(std::vector<Block<D>>& blocks, const Exchange<D>& excha
                   set_.patches, &past_);
   set_masks(blocks, exchange);
   continue_all(blocks, exchange, equations.fluid, q);
+  still_air(blocks, q);
+}
+
+/// Air without a velocity of its own holds none: extrapolated in time step by step it would run away, and a
+/// surface that comes back would meet it.
+template <int D>
+void FreeSurface<D>::still_air(const std::vector<Block<D>>& blocks, std::vector<State<D>>& q) const {
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    for_each_index<D>({}, blocks[b].extent.n, [&](const std::array<int, D>& index) {
+      const auto c = static_cast<std::size_t>(blocks[b].extent.at(index));
+      if (blocks[b].status[c] == CellStatus::fringe || set_.extension.reached(b, c)) return;
+      for (Field& component : q[b].u) component[c] = 0.0;
+    });
 }
 
 template <int D>

@@ -76,6 +76,7 @@ class FreeSurface {
                      std::vector<State<D>>& q);
   void continue_all(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange, const Fluid<D>& fluid,
                     std::vector<State<D>>& q);
+  void still_air(const std::vector<Block<D>>& blocks, std::vector<State<D>>& q) const;
   void continue_pressure(const std::vector<Block<D>>& blocks, const Fluid<D>& fluid,
                          std::vector<State<D>>& q) const;
 

@@ -32,9 +32,8 @@ bool at_surface(const Block<D>& block, const Field& stands, const Field& phi, st
     for (const std::ptrdiff_t step : {-block.extent.stride[d], block.extent.stride[d]}) {
       const auto other = static_cast<std::size_t>(c + step);
       if ((here < 0.0) == (phi[other] < 0.0)) continue;
-      if (stands[other] != 0.0) return true;
       const bool outside_grid = block.status[other] != CellStatus::blanked;
-      if (outside_grid && std::abs(here) <= std::abs(phi[other])) return true;
+      if (stands[other] != 0.0 || outside_grid) return true;
     }
   return false;
 }

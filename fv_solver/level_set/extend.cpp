@@ -9,8 +9,9 @@
 namespace littoral::fv {
 namespace {
 
-constexpr double k_poor = 0.5;      // mark of water whose own neighbours give no full gradient
-constexpr double k_beyond = 127.0;  // of cells that no pass has reached
+constexpr double k_poor = 0.5;    // mark of water whose own neighbours give no full gradient
+constexpr double k_beyond = 1e9;  // of cells that no pass has reached
+constexpr int k_at_surface = 3;   // layers whose velocities move the surface or carry momentum through it
 
 /// body(neighbour) for the 3^D - 1 cells around c that are cells of the grid, or ghosts that stand for one.
 template <int D, class Body>
@@ -103,6 +104,55 @@ void VelocityExtension<D>::gradients_of_water(const std::vector<Block<D>>& block
 }
 
 template <int D>
+void VelocityExtension<D>::reach_further(const Block<D>& block, const Band<D>& band,
+                                         const SurfacePatches<D>& patches, std::size_t b, int pass,
+                                         int layers, VectorField<D>& u, Pass& done) {
+  bool found = false, misses = false;
+  const auto cells = band.cells(b, 0, layers);
+#pragma omp parallel for schedule(static) if (cells.size() > k_cells_for_threads) reduction(|| \
+                                                                                            : found, misses)
+  for (std::ptrdiff_t i = 0; i < cells.size(); ++i) {
+    const std::ptrdiff_t c = cells[i];
+    const auto at = static_cast<std::size_t>(c);
+    if (reached_[b][at] < pass || !patches.has(b, c)) continue;
+    const SpaceVector<D> normal = patches.foot(b, i).normal;
+    double sum = 0.0, straightest = 0.0;
+    SpaceVector<D> value{}, change{};
+    SpaceMatrix<D> gradient{};
+    for_each_neighbour<D>(block, band, b, c, [&](std::ptrdiff_t other) {
+      const auto o = static_cast<std::size_t>(other);
+      if (reached_[b][o] >= pass) return;
+      const SpaceVector<D> r = between(block, other, c);
+      const double r2 = dot(r, r), along = std::max(dot(r, normal), 0.0);
+      constexpr double k_aside = 1e-2;  // of the weight straight below: where nothing else is there
+      const double w = (along * along / r2 + k_aside) / r2;
+      sum += w;
+      straightest = std::max(straightest, along * along / r2);
+      for (std::size_t k = 0; k < D; ++k) {
+        value[k] += w * u[k][o];
+        for (std::size_t l = 0; l < D; ++l) {
+          change[k] += w * gradient_[b][k][l][o] * r[l];
+          gradient[k][l] += w * gradient_[b][k][l][o];
+        }
+      }
+    });
+    if (sum == 0.0) {
+      misses = misses || band.layer(b, c) < k_at_surface;
+      continue;
+    }
+    found = true;
+    constexpr double k_below = 0.25;  // squared cosine: within 60 degrees of straight below
+    const double part = straightest > k_below ? 1.0 / sum : 0.0;
+    for (std::size_t k = 0; k < D; ++k) {
+      u[k][at] = value[k] / sum + part * change[k];
+      for (std::size_t l = 0; l < D; ++l) gradient_[b][k][l][at] = part * gradient[k][l];
+    }
+    reached_[b][at] = pass;
+  }
+  done = {done.found || found, done.misses || misses};
+}
+
+template <int D>
 void VelocityExtension<D>::extend(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange,
                                   const Band<D>& band, const SurfacePatches<D>& patches,
                                   const std::vector<WetMask>& wet, int layers,
@@ -128,47 +178,21 @@ void VelocityExtension<D>::extend(const std::vector<Block<D>>& blocks, const Exc
   gradients_of_water(blocks, band, u);
   exchange.scalars(blocks, fields, ScalarGhosts::cell_data);
   borrow_gradients<D>(blocks, band, reached_, gradient_);
-  for (int pass = 1; pass <= layers; ++pass) {
+  bool more = true;
+  for (int pass = 1; more; ++pass) {
     exchange.scalars(blocks, fields, ScalarGhosts::cell_data);
-    for (std::size_t b = 0; b < n; ++b) {
-      const Block<D>& block = blocks[b];
-      const auto cells = band.cells(b);
-#pragma omp parallel for schedule(static) if (cells.size() > k_cells_for_threads)
-      for (std::ptrdiff_t i = 0; i < cells.size(); ++i) {
-        const std::ptrdiff_t c = cells[i];
-        const auto at = static_cast<std::size_t>(c);
-        if (reached_[b][at] < pass || !patches.has(b, c)) continue;
-        const SpaceVector<D> normal = patches.foot(b, i).normal;
-        double sum = 0.0;
-        SpaceVector<D> value{};
-        SpaceMatrix<D> gradient{};
-        for_each_neighbour<D>(block, band, b, c, [&](std::ptrdiff_t other) {
-          const auto o = static_cast<std::size_t>(other);
-          if (reached_[b][o] >= pass) return;
-          const SpaceVector<D> r = between(block, other, c);
-          const double r2 = dot(r, r), along = std::max(dot(r, normal), 0.0);
-          constexpr double k_aside = 1e-2;  // of the weight straight below: where nothing else is there
-          const double w = (along * along / r2 + k_aside) / r2;
-          sum += w;
-          for (std::size_t k = 0; k < D; ++k) {
-            double there = (*u[b])[k][o];
-            for (std::size_t l = 0; l < D; ++l) {
-              there += gradient_[b][k][l][o] * r[l];
-              gradient[k][l] += w * gradient_[b][k][l][o];
-            }
-            value[k] += w * there;
-          }
-        });
-        if (sum == 0.0) continue;
-        for (std::size_t k = 0; k < D; ++k) {
-          (*u[b])[k][at] = value[k] / sum;
-          for (std::size_t l = 0; l < D; ++l) gradient_[b][k][l][at] = gradient[k][l] / sum;
-        }
-        reached_[b][at] = pass;
-      }
-    }
+    Pass done;
+    for (std::size_t b = 0; b < n; ++b)
+      reach_further(blocks[b], band, patches, b, pass, pass <= layers ? band.layers() : k_at_surface, *u[b],
+                    done);
+    more = pass < layers || (exchange.ranks().any(done.misses) && exchange.ranks().any(done.found));
   }
   exchange.scalars(blocks, fields, ScalarGhosts::cell_data);
+}
+
+template <int D>
+bool VelocityExtension<D>::reached(std::size_t block, std::size_t cell) const {
+  return reached_[block][cell] < k_beyond;
 }
 
 template class VelocityExtension<2>;

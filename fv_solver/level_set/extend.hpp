@@ -11,7 +11,10 @@ namespace littoral::fv {
 ///   u_c = sum_b w_b (u_b + G_b (x_c - x_b)),  G_c = sum_b w_b G_b
 /// over the neighbours b (diagonals included) that are water or were reached before, weighted with how near
 /// they are and how well x_c - x_b follows the surface's normal; G_b of water is the least-squares gradient
-/// of the water cells around. Linear u is exact on any grid. Air beyond keeps its values, water too.
+/// of the water cells around. Linear u is exact on any grid. A cell with no such neighbour below it, within
+/// 60 degrees of the normal, gets their mean without G: a film ahead of a front, thinner than half a cell,
+/// goes as fast as the water beside it, for a change along the surface says nothing about what lies beyond
+/// the water's end. Cells at the surface are reached however far they are. Air beyond keeps its values.
 template <int D>
 class VelocityExtension {
  public:
@@ -19,14 +22,23 @@ class VelocityExtension {
   /// for cells are: call Exchange::states
   /// wet: may have changed since the band and the patches, whose normals are used
   /// pre ghosts of u and wet current; the band has more than `layers` layers
-  /// comm exchange of u, its gradient and a mark: layers + 2 times
+  /// comm exchange of u, its gradient and a mark, once a layer; collective
   void extend(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange, const Band<D>& band,
               const SurfacePatches<D>& patches, const std::vector<WetMask>& wet, int layers,
               const std::vector<VectorField<D>*>& u);
+  /// Whether a cell is water or has got a velocity in the last call.
+  bool reached(std::size_t block, std::size_t cell) const;
 
  private:
   void gradients_of_water(const std::vector<Block<D>>& blocks, const Band<D>& band,
                           const std::vector<VectorField<D>*>& u);
+  struct Pass {
+    bool found = false;   // a velocity for some cell
+    bool misses = false;  // one for a cell at the surface
+  };
+  /// One pass over the cells of layers [0, layers) that have no velocity yet.
+  void reach_further(const Block<D>& block, const Band<D>& band, const SurfacePatches<D>& patches,
+                     std::size_t b, int pass, int layers, VectorField<D>& u, Pass& done);
 
   using Gradient = std::array<VectorField<D>, D>;  // [component][derivative] [1/s]
   std::vector<Gradient> gradient_;                 // [block]

@@ -143,6 +143,43 @@ TEST(FreeSurfaceTest, ADropOfOneCellFallsFreely) {
   }
 }
 
+TEST(FreeSurfaceTest, AFilmThinnerThanHalfACellSlidesOnWithTheWaterBesideIt) {
+  // a slab three cells high, before it a film without a single centre in it, longer than velocities are
+  // continued
+  constexpr int n = 40;
+  constexpr double h = 1.0 / n, speed = 0.7, dt = 0.4 * h / speed;
+  Block<2> block = make_block<2>("floor", {n, 8}, {true, false}, [=](const std::array<int, 2>& i) {
+    return std::array<double, 2>{h * i[0], h * i[1]};
+  });
+  close_with<2>(block, Condition::slip);
+  block.windows[0].condition = block.windows[1].condition = Condition::periodic;
+  const auto slab = [=](double x, double z, double moved) {
+    const double film = std::max(std::abs(x - moved - 0.4) - 0.15, z - 0.31 * h);
+    return std::min(film, std::max(std::abs(x - moved - 0.2) - 0.1, z - 3.2 * h));
+  };
+  auto stepper = tank_with_surface<2>(
+      block, Fluid<2>{},
+      [=](const std::array<double, 2>&, double) {
+        return PointState<2>{0.0, {speed, 0.0}};
+      },
+      [=](const std::array<double, 3>& x, double) { return slab(x[0], x[2], 0.0); });
+  const double volume = water_volume<2>(stepper.blocks(), stepper.surface()->phi());
+  constexpr int steps = 12;
+  for (int step = 0; step < steps; ++step) stepper.advance(dt);
+  EXPECT_LT(fastest<2>(stepper, {speed, 0.0}), 1e-6 * speed);
+  const Block<2>& now = stepper.blocks()[0];
+  double far = 0.0, off = 0.0;  // the film's end; error of the film's depth half way
+  for (int i = 0; i < n; ++i) {
+    const auto c = static_cast<std::size_t>(now.extent.at({i, 0}));
+    const double x = now.centre[0][c], phi = stepper.surface()->phi()[0][c], moved = steps * speed * dt;
+    if (phi < 0.4 * h) far = x - moved;
+    if (std::abs(x - moved - 0.42) < 3.0 * h) off = std::max(off, std::abs(phi - slab(x, 0.5 * h, moved)));
+  }
+  EXPECT_NEAR(far, 0.55, 1.5 * h);
+  EXPECT_LT(off, 0.05 * h);
+  EXPECT_NEAR(water_volume<2>(stepper.blocks(), stepper.surface()->phi()) / volume, 1.0, 0.01);
+}
+
 /// Standing wave of length 1 over depth .5 from its crest: its first mode after some steps, over the start.
 struct Wave {
   Stepper<2> stepper;
