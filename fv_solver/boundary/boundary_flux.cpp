@@ -48,6 +48,16 @@ Flux<D> flux_of(double mass, const std::array<double, D>& u, double p, const std
 }  // namespace
 
 template <int D>
+double far_field_speed(const Window<D>& window, std::size_t given, double c0) {
+  if (window.wave_speed > 0.0) return window.wave_speed;
+  // still water needs a wave speed too: a small part of the flow's, as wave_speed: 0 documents
+  constexpr double k_least_wave_speed = 0.1;
+  double speed2 = 0.0;
+  for (const auto& u : window.given_u[0]) speed2 += u[given] * u[given];
+  return std::max(std::sqrt(speed2), k_least_wave_speed * c0);
+}
+
+template <int D>
 void compute_boundary_fluxes(const Block<D>& block, const Fluid<D>& fluid, const WaveSpeeds& speeds,
                              double dt, const double* p, const State<D>& q, BoundaryFluxes<D>& fluxes) {
   const MassSpeed speed = speeds.mass(dt, fluid.viscosity);
@@ -105,20 +115,14 @@ void compute_boundary_fluxes(const Block<D>& block, const Fluid<D>& fluid, const
           break;
         }
         case Condition::far_field: {
-          // still water needs a wave speed too: a small part of the flow's, as wave_speed: 0 documents
-          constexpr double k_least_wave_speed = 0.1;
           FaceState<D> far;
-          double far_speed2 = 0.0;
           far.p = w.given_p[0][given];
           for (std::size_t k = 0; k < D; ++k) {
             far.u[k] = w.given_u[0][k][given];
             in.u[k] = q.u[k][i0];
-            far_speed2 += far.u[k] * far.u[k];
           }
           in.p = p[i0];
-          const double c = w.wave_speed > 0.0
-                               ? w.wave_speed
-                               : std::max(std::sqrt(far_speed2), k_least_wave_speed * speeds.c0);
+          const double c = far_field_speed(w, given, speeds.c0);
           const double flow_in = through<D>(in.u, area), flow_far = through<D>(far.u, area);
           const double flow =
               0.5 * (flow_in + flow_far) + 0.5 * frame.measure * (in.p - far.p) / (fluid.density * c);
@@ -139,6 +143,8 @@ void compute_boundary_fluxes(const Block<D>& block, const Fluid<D>& fluid, const
   }
 }
 
+template double far_field_speed(const Window<2>&, std::size_t, double);
+template double far_field_speed(const Window<3>&, std::size_t, double);
 template void compute_boundary_fluxes<2>(const Block<2>&, const Fluid<2>&, const WaveSpeeds&, double,
                                          const double*, const State<2>&, BoundaryFluxes<2>&);
 template void compute_boundary_fluxes<3>(const Block<3>&, const Fluid<3>&, const WaveSpeeds&, double,

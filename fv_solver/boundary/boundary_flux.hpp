@@ -31,6 +31,10 @@ template <int D>
 void compute_boundary_fluxes(const Block<D>& block, const Fluid<D>& fluid, const WaveSpeeds& speeds,
                              double dt, const double* p, const State<D>& q, BoundaryFluxes<D>& fluxes);
 
+/// Wave speed [m/s] of a far field's Riemann problem at a place of its window (of its given values).
+template <int D>
+double far_field_speed(const Window<D>& window, std::size_t given, double c0);
+
 /// Position in FaceFlux of a cell beside a face of `direction`.
 template <int D>
 std::size_t face_position(const Block<D>& block, std::size_t direction, const std::array<int, D>& index) {

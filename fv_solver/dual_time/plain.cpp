@@ -1,8 +1,13 @@
 #include "dual_time/plain.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <string>
 
+#include "boundary/boundary_flux.hpp"
 #include "grid/loops.hpp"
+#include "littoral/error.hpp"
 
 namespace littoral::fv {
 namespace {
@@ -52,6 +57,21 @@ void PlainDualTime<D>::set_pseudo_steps(const StepProblem<D>& problem, const std
         pseudo_step_[b][c] = pseudo_cfl_ * v / (convection + c_p * measures + friction);
       }
     });
+    // a far field answers p with a flow of S p/(2 rho0 c): slower than c_p, it is stiffer
+    for (const Window<D>& w : block.windows) {
+      if (w.condition != Condition::far_field) continue;
+      double c = std::numeric_limits<double>::max();
+      for (std::size_t given = 0; given < w.given_p[0].size(); ++given)
+        c = std::min(c, far_field_speed(w, given, e.speeds.c0));
+      std::array<int, D> lower = w.lower, upper = w.upper;
+      const auto d = static_cast<std::size_t>(w.direction);
+      lower[d] = w.side == 0 ? 0 : block.extent.n[d] - 1;
+      upper[d] = lower[d] + 1;
+      for_each_index<D>(lower, upper, [&](const std::array<int, D>& index) {
+        double& beta = beta_[b][static_cast<std::size_t>(block.extent.at(index))];
+        beta = std::min(beta, std::sqrt(beta) * c);
+      });
+    }
   }
 }
 
@@ -95,6 +115,9 @@ StepReport PlainDualTime<D>::solve(const StepProblem<D>& problem, const InnerTol
     ++report.cycles;
     report.norms.push_back(problem.norm(residual_));
   }
+  if (!std::isfinite(report.norms.back()))
+    throw StabilityError("the residual is not finite after " + std::to_string(report.cycles) +
+                         " pseudo-time steps");
   report.converged = tolerance.met(report.norms.back(), report.norms.front());
   return report;
 }

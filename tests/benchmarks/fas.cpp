@@ -7,6 +7,7 @@
 #include "grid/loops.hpp"
 #include "grid/metrics.hpp"
 #include "implicit/multigrid_solver.hpp"
+#include "littoral/error.hpp"
 
 namespace littoral::fv {
 namespace {
@@ -97,6 +98,7 @@ struct FasSolver::Level {
 FasSolver::FasSolver(const FasOptions& options, const OversetOptions& overset)
     : options_(options), overset_(overset) {}
 FasSolver::~FasSolver() = default;
+int FasSolver::n_levels() const { return static_cast<int>(levels_.size()); }
 
 void FasSolver::set_levels(const StepProblem<2>& problem) {
   levels_.push_back(std::make_unique<Level>());
@@ -107,7 +109,12 @@ void FasSolver::set_levels(const StepProblem<2>& problem) {
     auto next = std::make_unique<Level>();
     for (const Block<2>& block : *fine.blocks) next->own.push_back(every_second_node(block));
     next->blocks = &next->own;
-    const OversetAssembly<2> overlap = assemble_overset<2>(next->own, overset_);
+    OversetAssembly<2> overlap;
+    try {
+      overlap = assemble_overset<2>(next->own, overset_);
+    } catch (const ConfigError&) {  // so coarse that a cell finds no donor
+      break;
+    }
     next->own_exchange = Exchange<2>(next->own, overlap.links);
     for (Block<2>& block : next->own) set_reference_pressure(block, problem.equations.fluid);
     next->own_exchange.share_references(next->own);

@@ -29,13 +29,15 @@ struct FasOptions {
 };
 
 /// Full approximation storage: coarse levels are the same equations with the same conditions on every second
-/// node, holes cut and donors sought anew. Blocks without joins.
+/// node, holes cut and donors sought anew, as far down as every cell finds one. Blocks
+/// without joins.
 class FasSolver : public StepSolver<2> {
  public:
   FasSolver(const FasOptions& options, const OversetOptions& overset);
   ~FasSolver() override;
   StepReport solve(const StepProblem<2>& problem, const InnerTolerance& tolerance,
                    std::vector<State<2>>& q) override;
+  int n_levels() const;
 
  private:
   struct Level;

@@ -24,11 +24,12 @@ using namespace littoral::fv;
 struct Method {
   std::string name;
   std::unique_ptr<StepSolver<2>> solver;
+  const FasSolver* fas = nullptr;  // if it is one
 };
 
 std::vector<Method> methods(const FvConfig& config) {
   std::vector<Method> all;
-  all.push_back({"linear multigrid (default)", std::make_unique<MultigridSolver<2, float>>()});
+  all.push_back({"linear multigrid (default)", std::make_unique<MultigridSolver<2, float>>(), nullptr});
   const auto fas = [&](const std::string& name, Relaxation relaxation, int levels, int pre, int post,
                        int anderson) {
     FasOptions options;
@@ -37,7 +38,9 @@ std::vector<Method> methods(const FvConfig& config) {
     options.pre = pre;
     options.post = post;
     options.anderson_depth = anderson;
-    all.push_back({name, std::make_unique<FasSolver>(options, config.overset)});
+    auto solver = std::make_unique<FasSolver>(options, config.overset);
+    const FasSolver* same = solver.get();
+    all.push_back({name, std::move(solver), same});
   };
   constexpr int k_levels = 6;
   fas("ADI", Relaxation::adi, 1, 1, 0, 0);
@@ -46,7 +49,8 @@ std::vector<Method> methods(const FvConfig& config) {
   fas("FAS V(2,1), ADI, Anderson", Relaxation::adi, k_levels, 2, 1, 2);
   fas("FAS V(1,1), lines", Relaxation::lines, k_levels, 1, 1, 0);
   fas("FAS V(1,1), lines, Anderson", Relaxation::lines, k_levels, 1, 1, 2);
-  all.push_back({"plain dual time", std::make_unique<PlainDualTime<2>>(config.dual_time.pseudo_cfl)});
+  all.push_back(
+      {"plain dual time", std::make_unique<PlainDualTime<2>>(config.dual_time.pseudo_cfl), nullptr});
   return all;
 }
 
@@ -72,9 +76,11 @@ void compare(const FvConfig& config, const littoral::support::Scene& scene, int 
         most = std::max(most, report.cycles);
         converged = converged && report.converged;
       }
-      std::printf(" %6.1f cycles, most %3d%s   %8.2f s a step and million cells\n",
+      std::printf(" %6.1f cycles, most %3d%s   %8.2f s a step and million cells",
                   static_cast<double>(cycles) / steps, most, converged ? "" : " (not converged)",
                   1e6 * seconds / (steps * cells));
+      if (method.fas != nullptr) std::printf(", %d levels", method.fas->n_levels());
+      std::printf("\n");
     } catch (const littoral::StabilityError& lost) {
       std::printf(" diverges (%.60s)\n", lost.what());
     }

@@ -1,7 +1,6 @@
 // Shapes of cells: thin, stretched, skewed, alone, dead; grids that hardly overlap.
 #include <gtest/gtest.h>
 
-#include "littoral/error.hpp"
 #include "overset/assembly.hpp"
 #include "runs.hpp"
 
@@ -58,7 +57,6 @@ TEST(ExtremeCellsTest, SkewedByEightyDegrees) {
 }
 
 /// A turned patch of m x m cells over Couette flow: u = z is linear, so the fringes' interpolation is exact.
-/// NaN: refused, since a cell finds no donor.
 double patched_couette_error(int m, int overlap) {
   constexpr int n = 24;
   std::vector<Block<2>> blocks;
@@ -77,14 +75,7 @@ double patched_couette_error(int m, int overlap) {
   close_with<2>(blocks[1], Condition::overset);
   OversetOptions options;
   options.overlap = overlap;
-  OversetAssembly<2> assembly;
-  try {
-    assembly = assemble_overset<2>(blocks, options);
-  } catch (const ConfigError& orphans) {
-    std::printf("patch of %d cells, overlap %d: %.60s\n", m, overlap, orphans.what());
-    EXPECT_NE(std::string(orphans.what()).find("orphan"), std::string::npos);
-    return std::nan("");
-  }
+  OversetAssembly<2> assembly = assemble_overset<2>(blocks, options);
   Equations<2> equations;
   equations.fluid.viscosity = 0.1;
   InnerTolerance tolerance = three_orders();
@@ -104,12 +95,9 @@ double patched_couette_error(int m, int overlap) {
 }
 
 TEST(ExtremeCellsTest, GridsThatHardlyOverlap) {
-  EXPECT_LT(patched_couette_error(14, 3), 1e-5);
   EXPECT_LT(patched_couette_error(14, 1), 1e-5);
-  for (const int m : {12, 10, 8, 6, 4, 2}) {  // too few cells for both fringes, sooner or later
-    const double error = patched_couette_error(m, 1);
-    EXPECT_TRUE(std::isnan(error) || error < 1e-5) << m << ": " << error;
-  }
+  EXPECT_LT(patched_couette_error(8, 1), 1e-5);  // fringe, overlap and fringe, and little else
+  EXPECT_LT(patched_couette_error(4, 1), 1e-5);  // fringe only
 }
 
 TEST(ExtremeCellsTest, OneCellAlone) {
