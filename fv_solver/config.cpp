@@ -106,7 +106,9 @@ void FvConfig::bind(Binder& b) {
     b.key("kappa", dual_time.kappa)
         .min(0)
         .max(1)
-        .doc("Wave speed of the mass flux: at least kappa h/dt; above .5 small steps become unstable.");
+        .doc(
+            "Wave speed of the mass flux: at least kappa h/dt (and 2 nu/h); above .5 small steps become "
+            "unstable.");
     b.key("pseudo_sound_speed", dual_time.pseudo_sound_speed)
         .unit("m/s")
         .exclusive_min(0)

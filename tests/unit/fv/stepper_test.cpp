@@ -140,6 +140,27 @@ TEST(StepperTest, AnInitialStateWithoutDensityIsRefused) {
                StabilityError);
 }
 
+/// A far field's own wave speed is far below c_p = kappa h/dt here: explicit pseudo-time has to know of it.
+TEST(StepperTest, PlainDualTimeStandsAFarField) {
+  Block<2> block = deformed_box<2>(12, 0.0, 0.0, 0.0);
+  const Prescribed stream = [](const std::array<double, 3>&, double) { return 1.0; };
+  close_with<2>(block, Condition::far_field, {stream, {}});
+  InnerTolerance tolerance;
+  tolerance.max_cycles = 200;
+  Stepper<2> stepper({block}, Equations<2>{}, std::make_unique<PlainDualTime<2>>(1.0), tolerance);
+  stepper.initialise(
+      [](const std::array<double, 2>& x, double) {
+        const double bump = std::exp(-30.0 * (std::pow(x[0] - 0.5, 2) + std::pow(x[1] - 0.5, 2)));
+        return PointState<2>{0.0, {1.0 + bump, 0.0}};
+      },
+      0.0);
+  const StepReport report = stepper.advance(1e-3);
+  EXPECT_LT(report.norms.back(), 0.2 * report.norms.front());
+  double seconds = 0.0;
+  for (const auto& phase : stepper.phases().table()) seconds += phase.second;
+  EXPECT_GT(seconds, 0.0);
+}
+
 TEST(StepperTest, StartingRatesComeFromTheFieldEquations) {
   // plane acoustic wave in a compressible fluid at rest: du/dt = -p_x/rho
   Equations<2> equations;

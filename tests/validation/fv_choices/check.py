@@ -1,8 +1,9 @@
-"""Inner drop, flux, precision and step: error and cost on Taylor-Green (64 x 64) and the cavity at Re = 100 (64 x 64)."""
+"""Inner drop, flux, precision and step: error and cost on Taylor-Green, the cavity and a cylinder in a ring, Re = 100."""
 
 import math
 
 from lib import grid
+from littoral_lib import signals
 
 KEPT = math.exp(-4 * (1 / 100) * (2 * math.pi) ** 2)  # of the energy at t = 1, Re = 100
 CAVITY = {"u_min": -0.2139, "w_max": 0.1794, "w_min": -0.2536}
@@ -12,6 +13,27 @@ CHOICES += [("flux central4", ["fv.flux=central4"]),
             ("precision double", ["fv.dual_time.precision=double"])]
 CHOICES += [(f"fidelity {name}", [f"fv.fidelity={name}"]) for name in ("draft", "standard", "reference")]
 STEPS = [("dt x 4", 4.0), ("dt x 2", 2.0), ("dt / 2", 0.5)]
+
+
+FINE = 1.319, 0.322, 0.1631  # C_D, amplitude of C_L, St on the ring of twice the cells, dt/2: cylinder_ring/README.md
+
+
+def shedding(run, start=50):
+    """Mean drag, amplitude of lift and shedding frequency from `start` on."""
+    s = run.fv.scalars
+    late = s["time"] > start
+    t, drag, lift = s["time"][late], 2 * s["cylinder.fx"][late], 2 * s["cylinder.fz"][late]
+    rises = signals.up_crossings(t, lift)
+    whole = (t >= rises[0]) & (t < rises[-1])
+    return drag[whole].mean(), (lift[whole].max() - lift[whole].min()) / 2, (len(rises) - 1) / (rises[-1] - rises[0])
+
+
+def cylinder(case, name, settings, dt):
+    run = case.run(case.folder.parent / "cylinder_ring" / "scene", solver="fv",
+                   name=f"cylinder_{name}".replace(" ", "_").replace("/", "over"),
+                   set=["scene.time.end=80", "fv.output.fields=false", f"fv.time.dt={dt}*d/U", "fv.rings[0].around=64",
+                        "fv.rings[0].outward=48", "fv.rings[0].spacing.first_cell=6e-3*d"] + settings)
+    return shedding(run), run
 
 
 def cost(run):
@@ -43,6 +65,13 @@ def check(case):
         found = {"u_min": grid.extremum(u[1], u[0], -1)[0], "w_max": grid.extremum(w[1], w[0], 1)[0],
                  "w_min": grid.extremum(w[1], w[0], -1)[0]}
         rows.append(["cavity", name, max((abs(found[q] / CAVITY[q] - 1) for q in CAVITY))] + cost(run))
+    shed = []
+    for name, settings, dt in [(n, s, 0.06) for n, s in CHOICES] + [(n, [], 0.06 * f) for n, f in STEPS]:
+        found, run = cylinder(case, name, settings, dt)
+        shed.append([name, *found, *(f / fine - 1 for f, fine in zip(found, FINE))] + cost(run))
+    case.table("Cylinder, Re = 100, ring 64 x 48, dt .06 d/U",
+               ["choice", "C_D", "C_L amplitude", "St", "error of C_D", "of C_L", "of St", "cycles a step", "us a cell and step"],
+               shed)
     case.table("Error and cost", ["flow", "choice", "error", "cycles a step", "us a cell and step"], rows)
     case.metric("standard: error of the energy kept", errors["fidelity standard"], between=(-0.005, 0.005))
     case.metric("reference: error of the energy kept", errors["fidelity reference"], between=(-0.005, 0.005))
