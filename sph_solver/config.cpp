@@ -33,7 +33,8 @@ const std::vector<std::pair<std::string, Integrator>> k_integrators = {{"rk4", I
 const std::vector<std::pair<std::string, GaugeConfig::Kind>> k_gauges = {
     {"point", GaugeConfig::Kind::point},
     {"elevation", GaugeConfig::Kind::elevation},
-    {"pressure_disc", GaugeConfig::Kind::pressure_disc}};
+    {"pressure_disc", GaugeConfig::Kind::pressure_disc},
+    {"force_disc", GaugeConfig::Kind::force_disc}};
 const std::vector<std::pair<std::string, Config::InitialDistribution>> k_distributions = {
     {"lattice", Config::InitialDistribution::lattice}, {"relaxed", Config::InitialDistribution::relaxed}};
 
@@ -120,15 +121,17 @@ void Config::bind(support::Binder& b) {
         item.choice("kind", gauge.kind, k_gauges)
             .doc(
                 "point: pressure and velocity; elevation: of the surface on a vertical line; pressure_disc: "
-                "mean over a disc, as a sensor in a wall.");
+                "mean over a disc of what the particles there have; force_disc: force on a disc of a body's "
+                "wall "
+                "over its area, as a sensor shows it.");
         item.key("position", gauge.position).unit("m").required().doc("x, y, z.");
-        item.key("normal", gauge.normal).doc("Of the disc; pressure_disc only.");
-        item.key("diameter", gauge.diameter).unit("m").min(0).doc("Of the disc; pressure_disc only.");
+        item.key("normal", gauge.normal).doc("Of a disc; out of the water.");
+        item.key("diameter", gauge.diameter).unit("m").min(0).doc("Of a disc.");
       });
   for (std::size_t k = 0; k < gauges.size(); ++k) {
     const std::string at = "gauges[" + std::to_string(k) + "].";
-    if (gauges[k].kind != GaugeConfig::Kind::pressure_disc) continue;
-    b.check(gauges[k].diameter > 0.0, at + "diameter", "a pressure_disc needs a diameter above 0.");
+    if (!gauges[k].is_disc()) continue;
+    b.check(gauges[k].diameter > 0.0, at + "diameter", "a disc needs a diameter above 0.");
     b.check(norm(gauges[k].normal) > 0.0, at + "normal", "has no direction.");
   }
   coupling.bind(b);
@@ -145,16 +148,21 @@ namespace {
 void check_gauges(const std::string& path, const RunConfig& config) {
   const support::Scene& scene = config.scene;
   std::ostringstream problems;
-  for (const GaugeConfig& gauge : config.sph.gauges)
+  const auto next = [&] { return problems.tellp() > 0 ? "\n" : ""; };
+  for (const GaugeConfig& gauge : config.sph.gauges) {
+    if (gauge.kind == GaugeConfig::Kind::force_disc && scene.bodies.empty())
+      problems << next() << path << ": gauge '" << gauge.name
+               << "': a force_disc lies in a body's wall, and the scene has no bodies. Take a pressure_disc.";
     for (std::size_t d = 0; d < 3; ++d) {
       if (!scene.active(d) || (d == 2 && gauge.kind == GaugeConfig::Kind::elevation)) continue;
       const double lower = scene.domain.lower[d], upper = scene.domain.upper[d];
       const double slack = 1e-9 * (upper - lower);  // a place on the edge, by a formula
       if (gauge.position[d] >= lower - slack && gauge.position[d] <= upper + slack) continue;
-      problems << (problems.tellp() > 0 ? "\n" : "") << path << ": gauge '" << gauge.name << "': "
+      problems << next() << path << ": gauge '" << gauge.name << "': "
                << "xyz"[d] << " = " << gauge.position[d] << " m is outside the domain, which reaches from "
                << lower << " to " << upper << " m. Move it inside.";
     }
+  }
   if (problems.tellp() > 0) throw ConfigError(problems.str());
 }
 
@@ -310,8 +318,14 @@ std::unique_ptr<Walls<D>> walls_of(const RunConfig& config, const std::array<dou
   for (const auto& spec : config.scene.bodies)
     bodies.emplace_back(spec, D == 2, numerics.kernel_radius / numerics.eos.c,
                         spec.shape == support::BodySpec::Shape::stl ? read_surface(spec) : nullptr);
-  return std::make_unique<Walls<D>>(std::move(bodies), numerics, domain_of<D>(config),
-                                    Lattice<D>{origin, numerics.spacing});
+  auto walls = std::make_unique<Walls<D>>(std::move(bodies), numerics, domain_of<D>(config),
+                                          Lattice<D>{origin, numerics.spacing});
+  std::vector<WallDisc> discs;
+  for (const GaugeConfig& gauge : config.sph.gauges)
+    if (gauge.kind == GaugeConfig::Kind::force_disc)
+      discs.push_back({gauge.name, gauge.position, gauge.normal, gauge.diameter});
+  if (!discs.empty()) walls->watch(discs, domain_of<D>(config));
+  return walls;
 }
 
 template std::unique_ptr<Walls<2>> walls_of<2>(const RunConfig&, const std::array<double, 2>&);

@@ -18,12 +18,13 @@ namespace littoral::sph {
 
 /// A place where the flow is recorded each window.
 struct GaugeConfig {
-  enum class Kind { point, elevation, pressure_disc };
+  enum class Kind { point, elevation, pressure_disc, force_disc };
+  bool is_disc() const { return kind == Kind::pressure_disc || kind == Kind::force_disc; }
   std::string name;
   Kind kind = Kind::point;
   std::array<double, 3> position = {0, 0, 0};  // [m] elevation: z is ignored
-  std::array<double, 3> normal = {1, 0, 0};    // pressure_disc
-  double diameter = 0.0;                       // [m] pressure_disc
+  std::array<double, 3> normal = {1, 0, 0};    // of discs
+  double diameter = 0.0;                       // [m] of discs
   double dry_pressure = 0.0;                   // [Pa] what a dry place shows: the scene's reference pressure
 };
 

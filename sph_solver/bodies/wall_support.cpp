@@ -18,19 +18,37 @@ constexpr double k_wet_within = D == 2 ? 0.85 : 0.93;
 // lattice the first particles may stand .7 spacings off it, and none between them and the wall.
 constexpr double k_least_off = 0.5;
 
+/// A particle and its neighbours, their places side by side: a row's dummies ask for them over and over.
 template <int D>
-bool is_wet(const Particles<D>& particles, const NeighborList<D>& neighbors, std::size_t i,
-            const Vector<D>& place, double within) {
-  const auto near = [&](std::size_t j) {
-    double r2 = 0.0;
-    for (std::size_t d = 0; d < D; ++d) r2 += (particles.x[d][j] - place[d]) * (particles.x[d][j] - place[d]);
-    return r2 < within * within;
-  };
-  if (near(i)) return true;
-  for (std::size_t k = neighbors.start()[i]; k < neighbors.start()[i + 1]; ++k)
-    if (near(static_cast<std::size_t>(neighbors.list()[k]))) return true;
-  return false;
-}
+class Around {
+ public:
+  void gather(const Particles<D>& particles, const NeighborList<D>& neighbors, std::size_t i) {
+    const auto* list = neighbors.list() + neighbors.start()[i];
+    const std::size_t count = neighbors.start()[i + 1] - neighbors.start()[i];
+    for (std::size_t d = 0; d < D; ++d) {
+      x_[d].resize(count + 1);
+      for (std::size_t k = 0; k < count; ++k) x_[d][k] = particles.x[d][static_cast<std::size_t>(list[k])];
+      x_[d][count] = particles.x[d][i];
+    }
+  }
+  /// One of them stands within this distance of the place.
+  bool any_near(const Vector<D>& place, double within) const {
+    double least = within * within;
+    std::array<const double*, D> x;
+    for (std::size_t d = 0; d < D; ++d) x[d] = x_[d].data();
+    const std::size_t n = x_[0].size();
+#pragma omp simd reduction(min : least)
+    for (std::size_t k = 0; k < n; ++k) {
+      double r2 = 0.0;
+      for (std::size_t d = 0; d < D; ++d) r2 += (x[d][k] - place[d]) * (x[d][k] - place[d]);
+      least = r2 < least ? r2 : least;
+    }
+    return least < within * within;
+  }
+
+ private:
+  std::array<std::vector<double>, D> x_;
+};
 
 /// Where walls meet, the image about the one may lie in the other: no void either.
 template <int D>
@@ -56,36 +74,40 @@ void WallSupport<D>::find(const Particles<D>& particles, const NeighborList<D>& 
   wet_.assign(list.n_pairs(), 0);
   separation_.assign(list.n_pairs(), {});
   const auto n = static_cast<std::ptrdiff_t>(list.n_rows());
-#pragma omp parallel for schedule(static)
-  for (std::ptrdiff_t k = 0; k < n; ++k) {
-    const auto row = static_cast<std::size_t>(k);
-    const std::size_t i = list.particle(row);
-    const auto x = at<D>(particles.x, i);
-    WallView<D> view(dummies, list, row, x);
-    const auto closest = view.closest();
-    normal_[row] = closest.n;
-    close_[row] = closest.distance < 0.5 * spacing;
-    for (std::size_t pair = list.begin(row); pair < list.end(row); ++pair) {
-      const std::size_t e = list.dummy(pair);
-      Vector<D> dx = dummies[e].x;
-      for (std::size_t d = 0; d < D; ++d) dx[d] -= x[d];
-      separation_[pair] = dx;
-      const double f = -dummies.volume() * kernel.slope_over_r(std::sqrt(dot_of<D>(dx, dx)));
-      if (f == 0.0) continue;
-      const auto wet_before = [&](const WallPlane<D>& wall) {
-        const double along = dot_of<D>(dx, wall.n), depth = along - wall.distance;
-        const double off = std::max(depth, k_least_off * spacing);
-        Vector<D> mirror;
-        for (std::size_t d = 0; d < D; ++d) mirror[d] = x[d] + dx[d] - (depth + off) * wall.n[d];
-        return is_wet<D>(particles, neighbors, i, mirror, k_wet_within<D> * spacing) ||
-               is_body<D>(bodies, mirror, spacing);
-      };
-      if (free_surface && !wet_before(view.plane(e))) continue;
-      wet_[pair] = 1;
-      std::size_t m = 0;
-      for (std::size_t a = 0; a < D; ++a) {
-        crowding_[row][a] += f * dx[a];
-        for (std::size_t b = a; b < D; ++b) B_[row].a[m++] += f * dx[a] * dx[b];
+#pragma omp parallel
+  {
+    Around<D> around;
+#pragma omp for schedule(static)
+    for (std::ptrdiff_t k = 0; k < n; ++k) {
+      const auto row = static_cast<std::size_t>(k);
+      const std::size_t i = list.particle(row);
+      const auto x = at<D>(particles.x, i);
+      around.gather(particles, neighbors, i);
+      WallView<D> view(dummies, list, row, x);
+      const auto closest = view.closest();
+      normal_[row] = closest.n;
+      close_[row] = closest.distance < 0.5 * spacing;
+      for (std::size_t pair = list.begin(row); pair < list.end(row); ++pair) {
+        const std::size_t e = list.dummy(pair);
+        Vector<D> dx = dummies[e].x;
+        for (std::size_t d = 0; d < D; ++d) dx[d] -= x[d];
+        separation_[pair] = dx;
+        const double f = -dummies.volume() * kernel.slope_over_r(std::sqrt(dot_of<D>(dx, dx)));
+        if (f == 0.0) continue;
+        const auto wet_before = [&](const WallPlane<D>& wall) {
+          const double along = dot_of<D>(dx, wall.n), depth = along - wall.distance;
+          const double off = std::max(depth, k_least_off * spacing);
+          Vector<D> mirror;
+          for (std::size_t d = 0; d < D; ++d) mirror[d] = x[d] + dx[d] - (depth + off) * wall.n[d];
+          return around.any_near(mirror, k_wet_within<D> * spacing) || is_body<D>(bodies, mirror, spacing);
+        };
+        if (free_surface && !wet_before(view.plane(e))) continue;
+        wet_[pair] = 1;
+        std::size_t m = 0;
+        for (std::size_t a = 0; a < D; ++a) {
+          crowding_[row][a] += f * dx[a];
+          for (std::size_t b = a; b < D; ++b) B_[row].a[m++] += f * dx[a] * dx[b];
+        }
       }
     }
   }

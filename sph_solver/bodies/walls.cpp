@@ -195,6 +195,7 @@ const KnownSlopes<D>& Walls<D>::known_slopes(const Particles<D>& particles) {
 template <int D>
 void Walls<D>::add_rates(const Particles<D>& particles, const Gradients<D>& gradients, double level,
                          Rate<D>& rate) {
+  level_ = level;
   add_wall_fluxes<D>(particles, gradients, dummies_, states_, list_, mass_force_, numerics_, level,
                      bodies_.size(), rate, pressure_);
   if (any_sticks_)
@@ -209,6 +210,7 @@ void Walls<D>::find_support(const Particles<D>& particles, const NeighborList<D>
 template <int D>
 void Walls<D>::begin_step(double dt) {
   at_step_ = states_of(bodies_);
+  sensors_.begin_step();
   for (std::size_t b = 0; b < loads_.size(); ++b) {
     loads_[b] = {};
     loads_[b].pressure = (1.0 / dt) * impulses_[b].pressure;
@@ -233,6 +235,7 @@ void Walls<D>::add_stage_loads(const Particles<D>& particles, double weight) {
   };
   add(pressure_, &BodyLoad::pressure, &BodyLoad::pressure_moment);
   if (any_sticks_) add(friction_, &BodyLoad::viscous, &BodyLoad::viscous_moment);
+  sensors_.add(particles, list_, pressure_, n_bodies, weight);
 }
 
 template <int D>

@@ -7,6 +7,7 @@
 #include "bodies/dummies.hpp"
 #include "bodies/wall_fluxes.hpp"
 #include "bodies/wall_list.hpp"
+#include "bodies/wall_sensors.hpp"
 #include "bodies/wall_support.hpp"
 
 namespace littoral::sph {
@@ -63,6 +64,14 @@ class Walls {
     return loads_;
   }  ///< of the last step, from the owned particles
 
+  /// Discs of walls whose force is wanted from now on. throws ConfigError: a disc in no wall that stays
+  void watch(const std::vector<WallDisc>& discs, const DomainBox<D>& box) {
+    sensors_ = WallSensors<D>(discs, bodies_, dummies_, box, numerics_.spacing, numerics_.kernel_radius);
+  }
+  /// Their mean pressures above the level, of the last step and from the owned particles [Pa].
+  const std::vector<double>& sensed() const { return sensors_.mean(); }
+  double pressure_level() const { return level_; }  ///< of the last stage [Pa]
+
   const std::vector<Body>& bodies() const { return bodies_; }
   const Dummies<D>& dummies() const { return dummies_; }
   const WallList<D>& list() const { return list_; }
@@ -88,6 +97,8 @@ class Walls {
   KnownSlopes<D> known_;
   RowForces<D> pressure_, friction_;  // of the last stage
   std::vector<BodyLoad> loads_, impulses_;
+  WallSensors<D> sensors_;
+  double level_ = 0.0;                         // of the pressure [Pa]
   std::vector<BodyState> at_build_, at_step_;  // the bodies' states then
   bool built_ = false;
 };

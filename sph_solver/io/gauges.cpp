@@ -136,6 +136,10 @@ std::vector<std::string> gauge_columns(const std::vector<GaugeConfig>& gauges, i
       columns.push_back(gauge.name + ".elevation");
       continue;
     }
+    if (gauge.kind == GaugeConfig::Kind::force_disc) {
+      columns.push_back(gauge.name + ".p");
+      continue;
+    }
     if (gauge.kind == GaugeConfig::Kind::pressure_disc) {
       columns.push_back(gauge.name + ".p");
       columns.push_back(gauge.name + ".wet");
@@ -149,10 +153,16 @@ std::vector<std::string> gauge_columns(const std::vector<GaugeConfig>& gauges, i
 
 template <int D>
 std::vector<double> gauge_values(const std::vector<GaugeConfig>& gauges, const Particles<D>& particles,
-                                 const NeighborList<D>& neighbors, double spacing, const Walls<D>* walls) {
+                                 const NeighborList<D>& neighbors, double spacing, const Walls<D>* walls,
+                                 const std::vector<double>& sensed) {
   constexpr double k_dry = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> values;
+  auto sensor = sensed.begin();
   for (const auto& gauge : gauges) {
+    if (gauge.kind == GaugeConfig::Kind::force_disc) {
+      values.push_back(sensor == sensed.end() ? k_dry : *sensor++);
+      continue;
+    }
     std::array<double, D> x;
     for (std::size_t d = 0; d < D; ++d) x[d] = gauge.position[scene_axis<D>(d)];
     if (gauge.kind == GaugeConfig::Kind::elevation) {
@@ -184,8 +194,10 @@ template std::optional<double> elevation_at<2>(const Particles<2>&, const Neighb
 template std::optional<double> elevation_at<3>(const Particles<3>&, const NeighborList<3>&,
                                                const std::array<double, 3>&, double, const Walls<3>*);
 template std::vector<double> gauge_values<2>(const std::vector<GaugeConfig>&, const Particles<2>&,
-                                             const NeighborList<2>&, double, const Walls<2>*);
+                                             const NeighborList<2>&, double, const Walls<2>*,
+                                             const std::vector<double>&);
 template std::vector<double> gauge_values<3>(const std::vector<GaugeConfig>&, const Particles<3>&,
-                                             const NeighborList<3>&, double, const Walls<3>*);
+                                             const NeighborList<3>&, double, const Walls<3>*,
+                                             const std::vector<double>&);
 
 }  // namespace littoral::sph

@@ -38,11 +38,12 @@ std::optional<double> elevation_at(const Particles<D>& particles, const Neighbor
                                    const std::array<double, D>& x, double spacing,
                                    const Walls<D>* walls = nullptr);
 
-/// Column names of gauges.csv after `time`, and one row of values; NaN where there is no water.
+/// Column names of gauges.csv after `time`, and one row of values; NaN where there is no water. sensed: what
+/// the force discs measure, in their order [Pa].
 std::vector<std::string> gauge_columns(const std::vector<GaugeConfig>& gauges, int dimension);
 template <int D>
 std::vector<double> gauge_values(const std::vector<GaugeConfig>& gauges, const Particles<D>& particles,
                                  const NeighborList<D>& neighbors, double spacing,
-                                 const Walls<D>* walls = nullptr);
+                                 const Walls<D>* walls = nullptr, const std::vector<double>& sensed = {});
 
 }  // namespace littoral::sph

@@ -48,7 +48,7 @@ template <int D>
 std::vector<double> gauge_values_on_root(const std::vector<GaugeConfig>& gauges,
                                          const Particles<D>& particles, const DomainBox<D>& box,
                                          const NeighborList<D>& neighbors, double spacing, MPI_Comm comm,
-                                         const Walls<D>* walls) {
+                                         const Walls<D>* walls, const std::vector<double>& sensed) {
   const double reach = neighbors.reach();
   Particles<D> around = gather_on_root(particles, near_gauges(gauges, particles, box, reach), comm);
   int rank = 0;
@@ -57,7 +57,7 @@ std::vector<double> gauge_values_on_root(const std::vector<GaugeConfig>& gauges,
   Ghosts<D>(box).create(around, reach);
   NeighborList<D> lists(neighbors.kernel_radius(), reach - neighbors.kernel_radius());
   lists.build(around);
-  return gauge_values(gauges, around, lists, spacing, walls);
+  return gauge_values(gauges, around, lists, spacing, walls, sensed);
 }
 
 template std::vector<std::int32_t> near_gauges<2>(const std::vector<GaugeConfig>&, const Particles<2>&,
@@ -66,9 +66,9 @@ template std::vector<std::int32_t> near_gauges<3>(const std::vector<GaugeConfig>
                                                   const DomainBox<3>&, double);
 template std::vector<double> gauge_values_on_root<2>(const std::vector<GaugeConfig>&, const Particles<2>&,
                                                      const DomainBox<2>&, const NeighborList<2>&, double,
-                                                     MPI_Comm, const Walls<2>*);
+                                                     MPI_Comm, const Walls<2>*, const std::vector<double>&);
 template std::vector<double> gauge_values_on_root<3>(const std::vector<GaugeConfig>&, const Particles<3>&,
                                                      const DomainBox<3>&, const NeighborList<3>&, double,
-                                                     MPI_Comm, const Walls<3>*);
+                                                     MPI_Comm, const Walls<3>*, const std::vector<double>&);
 
 }  // namespace littoral::sph

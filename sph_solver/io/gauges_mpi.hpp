@@ -15,7 +15,8 @@ template <int D>
 std::vector<double> gauge_values_on_root(const std::vector<GaugeConfig>& gauges,
                                          const Particles<D>& particles, const DomainBox<D>& box,
                                          const NeighborList<D>& neighbors, double spacing, MPI_Comm comm,
-                                         const Walls<D>* walls = nullptr);
+                                         const Walls<D>* walls = nullptr,
+                                         const std::vector<double>& sensed = {});
 
 /// Owned particles that lie within `reach` of a gauge, themselves or through one of their images. pure
 template <int D>

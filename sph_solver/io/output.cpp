@@ -153,9 +153,14 @@ std::vector<double> Output<D>::gauge_row(const Particles<D>& particles,
                                          const NeighborList<D>& neighbors) const {
   const auto& gauges = config_.sph.gauges;
   if (gauges.empty()) return {};
-  if (ranks_ == nullptr) return gauge_values(gauges, particles, neighbors, config_.sph.spacing, walls_);
+  std::vector<double> sensed;
+  if (walls_ != nullptr) sensed = walls_->sensed();
+  if (ranks_ != nullptr && !sensed.empty()) ranks_->take_sum(sensed.data(), sensed.size());
+  for (double& p : sensed) p += walls_->pressure_level();
+  if (ranks_ == nullptr)
+    return gauge_values(gauges, particles, neighbors, config_.sph.spacing, walls_, sensed);
   return gauge_values_on_root(gauges, particles, domain_of<D>(config_), neighbors, config_.sph.spacing,
-                              ranks_->comm(), walls_);
+                              ranks_->comm(), walls_, sensed);
 }
 
 template <int D>

@@ -235,3 +235,22 @@ def square_patch_pressure(x, z, side, rate, density=1.0, terms=40):
         fall = (np.exp(n * k * (np.abs(z) - side / 2)) + np.exp(-n * k * (np.abs(z) + side / 2))) / (1 + np.exp(-n * np.pi))
         sum_ = sum_ + (-1) ** m * 8 * side**2 / (np.pi * n) ** 3 * np.cos(n * k * x) * fall
     return density * rate**2 * sum_
+
+
+def jet_on_wall(place):
+    """Pressure over rho U^2 on a wall that a free jet of half thickness b hits squarely, `place` [b] from its middle line.
+
+    Steady plane potential flow without gravity; the middle line may be a floor. On the wall the speed q over U grows as
+    y/b = 4/pi (artanh q + arctan q) (the hodograph is the half disc, its source at 1, its sinks at +-i), p = (1 - q^2)/2;
+    the integral of p over one half is 1, the momentum that arrives.
+    """
+    low, high = 0.0, 1.0 - 1e-15
+    for _ in range(60):
+        q = 0.5 * (low + high)
+        low, high = (q, high) if 4 / math.pi * (math.atanh(q) + math.atan(q)) < place else (low, q)
+    return 0.5 * (1.0 - low**2)
+
+
+def ritter(distance, time):
+    """Dam break on a dry floor by shallow water theory: speed and depth in front of the dam; all over H, sqrt(gH)."""
+    return 2 / 3 * (1 + distance / time), max(0.0, 2 - distance / time) ** 2 / 9

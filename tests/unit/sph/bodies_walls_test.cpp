@@ -117,6 +117,34 @@ void expect_momentum_balance(int n, double viscosity) {
 TEST(BodiesWallsTest, BodyGetsTheMomentumTheWaterLosesIn2D) { expect_momentum_balance<2>(10, 0.05); }
 TEST(BodiesWallsTest, BodyGetsTheMomentumTheWaterLosesIn3D) { expect_momentum_balance<3>(7, 0.05); }
 
+/// Still water, n deep; discs of two spacings in the wall at x = n.
+template <int D>
+void expect_pressure_of_discs(int n) {
+  const auto numerics = numerics_of_unit_lattice<D>();
+  auto particles = still_water<D>(n);
+  auto walls = walls_of<D>({tank(D, n)}, numerics, open_box<D>(n));
+  Walls<D>* seen = walls.get();
+  const auto disc = [&](double z) {
+    return WallDisc{"d", {1.0 * n, D == 3 ? 0.5 * n : 0.0, z}, {1.0, 0.0, 0.0}, 2.0};
+  };
+  seen->watch({disc(0.4 * n), disc(1.0), disc(n + 6.0)}, open_box<D>(n));
+  Dynamics<D> dynamics(numerics, open_box<D>(n), nullptr, std::move(walls));
+  dynamics.prepare(particles, 0.0, nullptr);
+  dynamics.right_hand_side(particles, 0.0);
+  seen->begin_step(1.0);
+  seen->add_stage_loads(particles, 0.25);
+  seen->add_stage_loads(particles, 0.75);
+  const double bottom = k_g * n;
+  EXPECT_NEAR(seen->sensed()[0], k_g * 0.6 * n, 0.03 * bottom);
+  EXPECT_NEAR(seen->sensed()[1], k_g * (n - 1.0), 0.1 * bottom);  // a quarter of its surroundings is floor
+  EXPECT_EQ(seen->sensed()[2], 0.0);                              // dry
+  auto off_the_wall = disc(3.0);
+  off_the_wall.centre[0] -= 1.0;
+  EXPECT_THROW(seen->watch({off_the_wall}, open_box<D>(n)), ConfigError);
+}
+TEST(BodiesWallsTest, DiscsShowThePressureOfStillWaterIn2D) { expect_pressure_of_discs<2>(14); }
+TEST(BodiesWallsTest, DiscsShowThePressureOfStillWaterIn3D) { expect_pressure_of_discs<3>(10); }
+
 TEST(BodiesWallsTest, MovingWithTheWaterTheWallDoesWhatItDoesAtRest) {
   const auto numerics = numerics_of_unit_lattice<2>();
   const auto rates = [&](double U) {
