@@ -128,18 +128,24 @@ void FvConfig::bind(Binder& b) {
   b.key("forcing_constant", forcing_constant)
       .exclusive_min(0)
       .doc("K of the forcing in overlapped cells; O(10).");
-  b.section("level_set", "The free surface; only where the scene's initial.surface leaves cells in the air.",
-            [&] {
-              b.key("layers", level_set.layers)
-                  .min(5)
-                  .max(50)
-                  .doc("Layers of cells on each side of the surface in which phi is the distance from it.");
-              b.key("extension_layers", level_set.extension_layers)
-                  .min(3)
-                  .max(50)
-                  .doc("Layers of air cells that hold a velocity; the surface may cross fewer in a step.");
-              b.key("sweeps", level_set.sweeps).min(1).doc("Of the equation of phi in each inner cycle.");
-            });
+  b.section(
+      "level_set", "The free surface; only where the scene's initial.surface leaves cells in the air.", [&] {
+        b.key("layers", level_set.layers)
+            .min(5)
+            .max(50)
+            .doc("Layers of cells on each side of the surface in which phi is the distance from it.");
+        b.key("extension_layers", level_set.extension_layers)
+            .min(3)
+            .max(50)
+            .doc("Layers of air cells that hold a velocity; the surface may cross fewer in a step.");
+        b.key("sweeps", level_set.sweeps).min(1).doc("Of the equation of phi in each inner cycle.");
+        using Correction = LevelSetOptions::VolumeCorrection;
+        b.choice("volume_correction", level_set.volume_correction,
+                 {{"none", Correction::none}, {"local", Correction::local}})
+            .doc(
+                "local: after each step every separate body of water gets its volume back, by one "
+                "shift of its own surface; not bodies that reach an opening. Not on overlapping grids.");
+      });
   partner.bind(b, coupler::Role::fv);
   b.section("source", "Sources per volume, formulas of x, y, z, t.", [&] {
     b.key("mass", source.mass).unit("kg/(m^3 s)").doc("Of the mass balance.");

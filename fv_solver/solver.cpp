@@ -145,9 +145,11 @@ template <int D>
 void Solver<D>::report(const StepReport& outcome) {
   ++steps_;
   cycles_ += outcome.cycles;
-  log_.progress(stepper_.time(), scene_.time.end,
-                format("t = %.5g s, dt = %.3g s, %d cycles, drop %.1e", stepper_.time(), stepper_.last_dt(),
-                       outcome.cycles, outcome.drop()));
+  std::string line = format("t = %.5g s, dt = %.3g s, %d cycles, drop %.1e", stepper_.time(),
+                            stepper_.last_dt(), outcome.cycles, outcome.drop());
+  if (const FreeSurface<D>* surface = stepper_.surface())
+    line += format(", volume %+.1e", surface->budget().error / surface->budget().volume);
+  log_.progress(stepper_.time(), scene_.time.end, line);
   if (config_.dual_time.print_history) {
     std::string history = "inner history [m/s]:";
     for (const double norm : outcome.norms) history += format(" %.3e", norm);

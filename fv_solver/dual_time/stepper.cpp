@@ -72,7 +72,7 @@ template <int D>
 void Stepper<D>::set_surface(const Prescribed& surface, const LevelSetOptions& options) {
   for (auto& block : blocks_) evaluate_surface_windows(block, time_);
   surface_ = std::make_unique<FreeSurface<D>>(options);
-  surface_->initialise(blocks_, exchange_, equations_.fluid, surface, time_, level_[0]);
+  surface_->initialise(blocks_, exchange_, equations_, surface, time_, level_[0]);
 }
 
 template <int D>
@@ -276,7 +276,7 @@ void Stepper<D>::recall(const Memory& memory) {
   steps_ = memory.steps;
   time_ = memory.time;
   for (auto& block : blocks_) evaluate_windows(block, equations_, time_);
-  if (surface_) surface_->recall(blocks_, exchange_, memory.phi);
+  if (surface_) surface_->recall(blocks_, exchange_, memory.phi, memory.volume);
 }
 
 template <int D>

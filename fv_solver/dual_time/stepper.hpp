@@ -105,10 +105,12 @@ class Stepper {
     long steps = 0;
     double time = 0.0;
     typename FreeSurface<D>::Memory phi{};  // empty without a free surface
+    VolumeBudget volume{};
   };
   Memory memory() const {
-    return {level_, dt_,   known_,
-            steps_, time_, surface_ ? surface_->memory() : typename FreeSurface<D>::Memory{}};
+    Memory memory{level_, dt_, known_, steps_, time_};
+    if (surface_) memory.phi = surface_->memory(), memory.volume = surface_->budget();
+    return memory;
   }
   void recall(const Memory& memory);
 

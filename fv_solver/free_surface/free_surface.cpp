@@ -17,6 +17,10 @@ std::vector<std::ptrdiff_t> cells_alone(const Block<D>& block, const WetMask& we
   return alone;
 }
 
+bool corrects_volumes(const LevelSetOptions& options) {
+  return options.volume_correction == LevelSetOptions::VolumeCorrection::local;
+}
+
 /// Residual of phi at which a step ends, over the pseudo sound speed, and rounds of sweeps at most.
 constexpr double k_phi_tolerance = 1e-9;
 constexpr int k_last_rounds = 20;
@@ -25,13 +29,22 @@ constexpr int k_last_rounds = 20;
 
 template <int D>
 void FreeSurface<D>::initialise(std::vector<Block<D>>& blocks, const Exchange<D>& exchange,
-                                const Fluid<D>& fluid, const Prescribed& surface, double t,
+                                const Equations<D>& equations, const Prescribed& surface, double t,
                                 std::vector<State<D>>& q) {
   set_.initialise(blocks, exchange, surface, t);
+  // Reinitialised over and over phi settles beside the surface, by a factor of ten each time: what that
+  // changes in the measured volume must not be taken for lost water.
+  constexpr int k_settles = 12;
+  for (int i = 0; i < k_settles && corrects_volumes(set_.options); ++i)
+    reinitialise<D>(blocks, exchange, set_.options.layers, InterfaceCells::frozen, set_.phi, set_.band,
+                    set_.patches);
   past_ = set_.phi;
   start_ = {set_.phi, past_};
   set_masks(blocks, exchange);
-  continue_all(blocks, exchange, fluid, q);
+  continue_all(blocks, exchange, equations.fluid, q);
+  const double steady = BackwardDifference::steady().dt;
+  budget_ = {exchange.ranks().sum(water_volume<D>(blocks, set_.phi)),
+             exchange.ranks().sum(inflow_through_openings<D>(blocks, equations, steady, set_.phi, q)), 0.0};
 }
 
 template <int D>
@@ -46,6 +59,7 @@ void FreeSurface<D>::begin(std::vector<Block<D>>& blocks, const Exchange<D>& exc
   exchange.scalar(blocks, set_.phi, ScalarGhosts::level_set);
   set_masks(blocks, exchange);
   scheme_ = scheme;
+  budget_before_ = budget_;
   evaluations_ = 0;
 }
 
@@ -78,9 +92,14 @@ void FreeSurface<D>::end(std::vector<Block<D>>& blocks, const Exchange<D>& excha
   past_ = start_[0];
   reinitialise<D>(blocks, exchange, set_.options.layers, InterfaceCells::frozen, set_.phi, set_.band,
                   set_.patches, &past_);
+  if (corrects_volumes(set_.options))
+    restore_volumes<D>(blocks, exchange, set_.band, set_.patches, start_[0], set_.phi, past_);
   set_masks(blocks, exchange);
   continue_all(blocks, exchange, equations.fluid, q);
   still_air(blocks, q);
+  budget_.add(exchange.ranks().sum(water_volume<D>(blocks, set_.phi)),
+              exchange.ranks().sum(inflow_through_openings<D>(blocks, equations, scheme_.dt, set_.phi, q)),
+              scheme_.dt);
 }
 
 /// Air without a velocity of its own holds none: extrapolated in time step by step it would run away, and a
@@ -105,12 +124,14 @@ template <int D>
 void FreeSurface<D>::restore(std::vector<Block<D>>& blocks, const Exchange<D>& exchange) {
   set_.phi = start_[0];
   past_ = start_[1];
+  budget_ = budget_before_;
   set_masks(blocks, exchange);
 }
 
 template <int D>
-void FreeSurface<D>::recall(std::vector<Block<D>>& blocks, const Exchange<D>& exchange,
-                            const Memory& memory) {
+void FreeSurface<D>::recall(std::vector<Block<D>>& blocks, const Exchange<D>& exchange, const Memory& memory,
+                            const VolumeBudget& budget) {
+  budget_ = budget;
   set_.phi = memory[0];
   past_ = memory[1];
   set_masks(blocks, exchange);

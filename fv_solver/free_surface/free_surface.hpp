@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "free_surface/cut_faces.hpp"
+#include "free_surface/inflow.hpp"
 #include "level_set/level_set.hpp"
 #include "physics/equations.hpp"
 
@@ -24,7 +25,7 @@ class FreeSurface {
 
   /// The surface at time t from a function < 0 in water; q's u and p continued into the air.
   /// throws ConfigError where the function is not finite
-  void initialise(std::vector<Block<D>>& blocks, const Exchange<D>& exchange, const Fluid<D>& fluid,
+  void initialise(std::vector<Block<D>>& blocks, const Exchange<D>& exchange, const Equations<D>& equations,
                   const Prescribed& surface, double t, std::vector<State<D>>& q);
 
   /// A step of `scheme` begins, `ahead` = dt/dt before (0 in the first).
@@ -51,17 +52,16 @@ class FreeSurface {
                ? 0.0
                : exchange.ranks().largest(surface_rate<D>(blocks, set_.band, set_.surface_velocity));
   }
-  /// Of the water in all solved cells [m^D].
-  double volume(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange) const {
-    return exchange.ranks().sum(water_volume<D>(blocks, set_.phi));
-  }
+  /// Of the water in all solved cells, as the last step left it.
+  const VolumeBudget& budget() const { return budget_; }
   /// Counts the changes of which cells are water.
   long version() const { return version_; }
 
   /// What a continuation needs: phi^n and phi^n-1.
   using Memory = std::array<std::vector<Field>, 2>;
   Memory memory() const { return {set_.phi, past_}; }
-  void recall(std::vector<Block<D>>& blocks, const Exchange<D>& exchange, const Memory& memory);
+  void recall(std::vector<Block<D>>& blocks, const Exchange<D>& exchange, const Memory& memory,
+              const VolumeBudget& budget);
 
  private:
   /// Evaluations of a step in which cells may still turn to water or air, and stencils may be switched. After
@@ -84,6 +84,7 @@ class FreeSurface {
   std::vector<Field> past_;  // [m] phi^n-1, cells new in the band completed
   Memory start_;             // [m] phi^n, phi^n-1 of the step just done or under way
   BackwardDifference scheme_;
+  VolumeBudget budget_, budget_before_;             // now, and before the last begin
   std::vector<WetMask> wet_;                        // [block]
   std::vector<CutFaces<D>> cut_;                    // [block]
   std::vector<std::vector<std::ptrdiff_t>> drops_;  // [block] cells of water alone

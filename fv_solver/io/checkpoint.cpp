@@ -56,6 +56,8 @@ void write_checkpoint(const std::string& path, const Stepper<D>& stepper, std::i
     if (stepper.surface() != nullptr && level < memory.phi.size())
       put(group(level), "phi", [&](std::size_t b) -> const Field& { return memory.phi[level][b]; });
   }
+  if (stepper.surface() != nullptr)
+    file.put("water", std::vector<double>{memory.volume.volume, memory.volume.inflow, memory.volume.error});
   if (more) more(file);
   file.commit();
 }
@@ -101,6 +103,10 @@ std::int64_t read_checkpoint(const std::string& path, Stepper<D>& stepper, const
       memory.phi[level].resize(mine.size());
       memory.phi[level][i] = read(level, "phi");
     }
+  }
+  if (stepper.surface() != nullptr) {
+    const std::vector<double> water = file.doubles("water");
+    memory.volume = {water.at(0), water.at(1), water.at(2)};
   }
   stepper.recall(memory);
   return file.integer("window");

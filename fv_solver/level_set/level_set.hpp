@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "boundary/window.hpp"
@@ -9,6 +10,7 @@
 #include "level_set/reinitialise.hpp"
 #include "level_set/transport.hpp"
 #include "level_set/volume.hpp"
+#include "level_set/water_bodies.hpp"
 
 namespace littoral::fv {
 
@@ -16,6 +18,8 @@ struct LevelSetOptions {
   int layers = 8;            // of the band in which phi is a distance, on each side
   int extension_layers = 4;  // of air cells that hold a velocity
   int sweeps = 3;            // of the transport of phi in one inner iteration
+  enum class VolumeCorrection : std::uint8_t { none, local };
+  VolumeCorrection volume_correction = VolumeCorrection::none;
 };
 
 /// What a scene with a free surface holds beside p and u; nothing of it exists in other scenes. The functions

@@ -254,3 +254,21 @@ def jet_on_wall(place):
 def ritter(distance, time):
     """Dam break on a dry floor by shallow water theory: speed and depth in front of the dam; all over H, sqrt(gH)."""
     return 2 / 3 * (1 + distance / time), max(0.0, 2 - distance / time) ** 2 / 9
+
+
+def havelock_wave(radius, depth, speed, gravity):
+    """Amplitude [m] of the waves behind a circular cylinder whose axis lies `depth` below the surface of a stream.
+
+    Linear, inviscid, deep water, the cylinder as the dipole U a^2 (Havelock 1917, Proc. R. Soc. A 93; Lamb 1932, art. 247):
+    A = 4 pi a^2 k0 exp(-k0 f), k0 = g/U^2.
+    """
+    k0 = gravity / speed**2
+    return 4 * math.pi * radius**2 * k0 * math.exp(-k0 * depth)
+
+
+def havelock_drag(radius, depth, speed, gravity, density=1.0):
+    """Wave drag of that cylinder [N/m]: R = 4 pi^2 rho g a^4 k0^2 exp(-2 k0 f).
+
+    The waves' energy rho g A^2/2 grows with U less their group velocity U/2, and R U is its rate: R = rho g A^2/4.
+    """
+    return density * gravity * havelock_wave(radius, depth, speed, gravity) ** 2 / 4

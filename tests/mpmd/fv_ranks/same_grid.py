@@ -24,7 +24,9 @@ def last_fields(folder):
 
 
 def vector_of(name):
-    """Of a velocity, or of a force and its moment."""
+    """Of a velocity, or of a force and its moment; the error of a volume is judged against the volume."""
+    if name == "volume_error":
+        return "water_volume"
     return re.sub(r"([fm]?[xyz]|[uvw])$", "", name)
 
 

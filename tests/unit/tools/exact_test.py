@@ -5,7 +5,7 @@ import unittest
 
 import numpy as np
 import tools_path  # noqa: F401
-from littoral_lib.exact import OscillatingDrop, StandingWave, normal_mode, square_patch_pressure
+from littoral_lib.exact import OscillatingDrop, StandingWave, havelock_drag, normal_mode, square_patch_pressure
 
 
 def wave(reynolds, **more):
@@ -106,6 +106,18 @@ class SquarePatch(unittest.TestCase):
         np.testing.assert_allclose(square_patch_pressure(0.5, side, 1.0, 1.0), 0.0, atol=1e-12)
         # the series on z = +-1/2 converges as 1/n^2 at the corners
         np.testing.assert_allclose(square_patch_pressure(side, 0.5, 1.0, 1.0), 0.0, atol=2e-5)
+
+
+class HavelockDrag(unittest.TestCase):
+    def test_of_the_papers_cylinder(self):
+        # Fr = U/sqrt(g d) = 1, top of the cylinder 1.5 d below the surface: C_D = .090
+        self.assertAlmostEqual(havelock_drag(0.5, 2.0, 1.0, 1.0) / 0.5, 0.0904, delta=5e-5)
+
+    def test_in_other_units(self):
+        d, g, rho = 0.1, 9.81, 1000.0
+        speed = math.sqrt(g * d)
+        drag = havelock_drag(0.5 * d, 2.0 * d, speed, g, rho)
+        self.assertAlmostEqual(drag / (0.5 * rho * speed**2 * d), 0.0904, delta=5e-5)
 
 
 if __name__ == "__main__":

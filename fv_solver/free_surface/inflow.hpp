@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include "physics/equations.hpp"
+
+namespace littoral::fv {
+
+/// Water that comes in through the openings of these blocks [m^D/s], those of phi's part of each face: the
+/// given flux of inflow, outflow and far_field, elsewhere the central one. Imposed and overlapping faces are
+/// not counted.
+/// dt: of the step, for the wave speed in the flux. pre windows evaluated, ghosts of q and phi current
+/// comm local
+template <int D>
+double inflow_through_openings(const std::vector<Block<D>>& blocks, const Equations<D>& equations, double dt,
+                               const std::vector<Field>& phi, const std::vector<State<D>>& q);
+
+/// The volume of the water, and what of its change is no flow.
+struct VolumeBudget {
+  double volume = 0.0;  // [m^D] now
+  double inflow = 0.0;  // [m^D/s] now
+  double error = 0.0;   // [m^D] gained since the start beside what came through openings (trapezoidal rule)
+
+  /// A step has ended with this volume and inflow.
+  void add(double volume_now, double inflow_now, double dt) {
+    error += volume_now - volume - 0.5 * dt * (inflow + inflow_now);
+    volume = volume_now;
+    inflow = inflow_now;
+  }
+};
+
+}  // namespace littoral::fv
