@@ -55,15 +55,19 @@ void place_particles(const RunConfig& config, const Layers<D>& layers, const Wal
 
 namespace {
 
-/// Bytes a particle takes: columns of particles, stages, gradients and surface, and its row in the lists.
+/// Bytes a particle takes: columns of particles, stages, what the pair loops read, and its row in the lists.
 template <int D>
 double bytes_of_particle(const Numerics<D>& numerics) {
-  constexpr int state = 4 * D + 7, stages = 4 * D + 2, rate = D + 1, gradients = D + D * D;
-  constexpr int surface = D * (D + 1) / 2 + D + 3, lists = 2 * D + 3;
+  constexpr int state = 4 * D + 7, stages = 4 * D + 2, rate = D + 1;
+  constexpr int surface = D + 3, lists = 2 * D + 2;  // while they are found
+  const std::size_t rows =
+      numerics.precision == Precision::mixed
+          ? sizeof(typename PairRows<D, float>::State) + sizeof(typename PairRows<D, float>::Face)
+          : sizeof(typename PairRows<D, double>::State) + sizeof(typename PairRows<D, double>::Face);
   const double pi = std::acos(-1.0);
   const double reach = (numerics.kernel_radius + numerics.skin) / numerics.spacing;
   const double neighbors = D == 2 ? pi * reach * reach : 4.0 / 3.0 * pi * reach * reach * reach;
-  return sizeof(double) * (state + stages + rate + gradients + surface + lists) +
+  return sizeof(double) * (state + stages + rate + surface + lists) + static_cast<double>(rows) +
          sizeof(std::int32_t) * neighbors;
 }
 

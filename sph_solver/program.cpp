@@ -88,9 +88,6 @@ int run_program(coupler::Job& job, int argc, char** argv) {
     std::cout << options.config << ": no problem found\n" << prediction;
     return 0;
   }
-  if (job.size() > 1 && !(options.record.empty() && options.replay.empty()))
-    throw ConfigError("--record and --replay are for one rank; sph_solver was started on " +
-                      std::to_string(job.size()) + ". Start it with -n 1.");
   const std::string folder = options.out + "/sph";
   if (speaks) {
     std::error_code failure;

@@ -30,9 +30,8 @@ class Incoming {
   /// Moves it as far as it goes now; true when it is here. throws CouplingError: it is not what is due
   bool progress();
   bool here() const { return state_ == State::here; }
-  bool moving() const {
-    return state_ == State::whole || state_ == State::piece;
-  }  ///< bytes are on their way
+  /// Bytes are on their way.
+  bool moving() const { return state_ == State::whole || state_ == State::piece; }
   /// Before an error leaves: true when MPI no longer writes into our memory.
   bool settled();
 

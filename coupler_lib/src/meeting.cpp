@@ -87,11 +87,8 @@ std::vector<RankBoxes> Meeting::meet(const RankBoxes& mine) {
   std::vector<RankBoxes> ours(static_cast<std::size_t>(size_));
   MPI_Allgather(&mine, 12, MPI_DOUBLE, ours.data(), 12, MPI_DOUBLE, program_);
   if (is_root()) {
-    Expected what;
-    what.kind = Kind::boxes;
-    what.epoch = epoch_;
     pack(out_, ours);
-    swap(out_, what, ours.size());
+    swap(out_, expected_of_epoch(Kind::boxes), ours.size());
   }
   share(out_, "the partner's boxes");
   auto theirs = unpack_boxes(payload(out_), payload_size(out_), channel_.partner());

@@ -50,18 +50,19 @@ bool Sheets<D>::shows(const std::vector<Body>& bodies, const Dummies<D>& dummies
 template <int D>
 void Sheets<D>::part(const std::vector<Body>& bodies, const Particles<D>& particles,
                      NeighborList<D>& neighbors) const {
+  std::vector<Vector3> local(particles.size());
   for (const std::size_t b : sheets_) {
     const Body& sheet = bodies[b];
-    std::vector<Vector3> local(particles.size());
     const auto n = static_cast<std::ptrdiff_t>(particles.size());
 #pragma omp parallel for schedule(static)
     for (std::ptrdiff_t k = 0; k < n; ++k) {
       const auto i = static_cast<std::size_t>(k);
       local[i] = sheet.to_local(in_scene<D>(at<D>(particles.x, i)));
     }
-    neighbors.remove_pairs([&](std::size_t i) { return std::fabs(local[i][2]) < neighbors.reach(); },
-                           [&](std::size_t i, std::size_t j) { return divides(sheet, local[i], local[j]); });
+    neighbors.mark_pairs([&](std::size_t i) { return std::fabs(local[i][2]) < neighbors.reach(); },
+                         [&](std::size_t i, std::size_t j) { return divides(sheet, local[i], local[j]); });
   }
+  neighbors.drop_marked();
 }
 
 template class Sheets<2>;

@@ -27,11 +27,12 @@ struct TwoSided {
   const Dummies<D>& dummies;
   const DummyStates<D>& states;
   LinearEos eos;
+  double kernel_radius;
   WallFace<D> operator()(const PairSide<D>& i, WallView<D>&, std::size_t e, const Vector<D>& dx,
                          const Vector<D>& f) const {
     const double p = states.pressure(e);
     const DummySide<D> dummy{states.velocity(e), dummies[e].a, p, eos.density(p)};
-    return dummy_face<D, variant>(i, dummy, dx, f, eos.c);
+    return dummy_face<D, variant>(i, dummy, dx, f, eos.c, kernel_radius);
   }
 };
 
@@ -50,8 +51,8 @@ void loop(const Particles<D>& particles, const Gradients<D>& gradients, const Du
     const auto x = at<D>(particles.x, i);
     PairSide<D> side{at<D>(particles.u, i), particles.p[i], particles.rho[i], {}, {}};
     if constexpr (gradients_count) {
-      side.grad_p = at<D>(gradients.p, i);
-      for (std::size_t d = 0; d < D; ++d) side.grad_u[d] = at<D>(gradients.u[d], i);
+      side.grad_p = at<D>(gradients.p, row);
+      for (std::size_t d = 0; d < D; ++d) side.grad_u[d] = at<D>(gradients.u[d], row);
     }
     WallView<D> view(dummies, list, row, x);
     double volume = 0.0;
@@ -94,7 +95,7 @@ void add_wall_fluxes(const Particles<D>& particles, const Gradients<D>& gradient
                             rate, forces);
     };
     if (two_sided)
-      run(TwoSided<D, v>{dummies, states, numerics.eos});
+      run(TwoSided<D, v>{dummies, states, numerics.eos, numerics.kernel_radius});
     else
       run(OneSided<D, v>{numerics.eos.c});
   };

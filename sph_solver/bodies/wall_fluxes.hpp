@@ -15,7 +15,7 @@ using RowForces = std::vector<std::array<double, D>>;
 /// Pairs of particle and dummy (S12):
 ///   dV_i/dt += 2 V_i sum_j V_j (u_E - u_i) . grad W_ij,   m_i du_i/dt -= 2 V_i sum_j V_j (p_E - p*) grad
 ///   W_ij
-/// in    particles, gradients with reconstruction (owned part)
+/// in    particles, gradients of the rows with reconstruction
 ///       states: of the dummies, where numerics.wall_states are extrapolated
 ///       mass_force: of each row
 ///       level: p* [Pa], as in the pairs of particles: p0 with a free surface

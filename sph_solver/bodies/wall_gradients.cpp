@@ -20,7 +20,7 @@ void find_known_slopes(const Particles<D>& particles, const Dummies<D>& dummies,
                        const RowAccelerations<D>& mass_force, double kernel_radius, KnownSlopes<D>& known) {
   const Kernel<D> kernel(kernel_radius);
   const double R2 = kernel.R * kernel.R;
-  known.row_of = list.rows_of();
+  known.row_of = list.rows_of().data();
   known.B.assign(list.n_rows(), {});
   known.slope.assign(list.n_rows(), {});
   const auto n = static_cast<std::ptrdiff_t>(list.n_rows());

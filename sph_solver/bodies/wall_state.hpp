@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bodies/wall_view.hpp"
+#include "physics/kernel.hpp"
 #include "physics/riemann.hpp"
 
 namespace littoral::sph {
@@ -72,9 +73,8 @@ struct DummySide {
 /// stay.
 template <int D, Reconstruction variant>
 inline WallFace<D> dummy_face(const PairSide<D>& i, const DummySide<D>& dummy, const Vector<D>& dx,
-                              const Vector<D>& f, double c) {
-  constexpr double k_least_square = 1e-300;  // keeps 1/r finite for coincident points
-  const double r = std::sqrt(std::max(k_least_square, dot_of<D>(dx, dx)));
+                              const Vector<D>& f, double c, double kernel_radius) {
+  const double r = std::max(k_least_distance * kernel_radius, std::sqrt(dot_of<D>(dx, dx)));
   double rest = 0.0;
   for (std::size_t d = 0; d < D; ++d) rest += i.rho * (f[d] - dummy.a[d]) * dx[d];
   const double dp = dummy.p - i.p, u_l = dot_of<D>(i.u, dx) / r, u_r = dot_of<D>(dummy.u, dx) / r;

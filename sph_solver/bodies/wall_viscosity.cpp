@@ -11,7 +11,6 @@ template <int D>
 void add_wall_friction(const Particles<D>& particles, const Gradients<D>& gradients,
                        const Dummies<D>& dummies, const WallList<D>& list, const Numerics<D>& numerics,
                        const std::vector<char>& sticks, Rate<D>& rate, RowForces<D>& forces) {
-  constexpr double k_least_distance = 1e-9;  // of R; keeps 1/r^2 finite
   const Kernel<D> kernel(numerics.kernel_radius);
   const double least = k_least_distance * k_least_distance * kernel.R * kernel.R;
   const double mu = numerics.eos.rho0 * numerics.viscosity;
@@ -38,7 +37,7 @@ void add_wall_friction(const Particles<D>& particles, const Gradients<D>& gradie
       for (std::size_t d = 0; d < D; ++d) {
         double across = 0.0, to_wall = 0.0;
         if (linear) {
-          const auto slope = at<D>(gradients.u[d], i);
+          const auto slope = at<D>(gradients.u[d], row);
           across = dot_of<D>(slope, dx);
           to_wall = wall.distance * dot_of<D>(slope, wall.n);
         }

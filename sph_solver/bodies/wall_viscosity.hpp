@@ -9,7 +9,7 @@ namespace littoral::sph {
 ///   u_w = u_i + grad u_i . dx + 2 (u_wall - u_i - d grad u_i . n)
 /// Exact for a linear shear; without gradient (spray) the mirror image alone. Both components count: the
 /// mirrored normal one stops nothing that (S12) has not stopped.
-/// in    gradients.u (owned part); sticks: of each body     out  rate and forces added to      comm  local
+/// in    gradients.u of the rows; sticks: of each body     out  rate and forces added to      comm  local
 template <int D>
 void add_wall_friction(const Particles<D>& particles, const Gradients<D>& gradients,
                        const Dummies<D>& dummies, const WallList<D>& list, const Numerics<D>& numerics,

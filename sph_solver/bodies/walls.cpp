@@ -44,7 +44,8 @@ Walls<D>::Walls(std::vector<Body> bodies, const Numerics<D>& numerics, const Dom
 
 template <int D>
 void Walls<D>::move_to(double t) {
-  if (!any_moves_) return;
+  if (!any_moves_ || t == time_) return;  // stages of one time follow each other
+  time_ = t;
   for (Body& body : bodies_) body.move_to(t);
   dummies_.refresh(bodies_);
   for (std::size_t e = 0; e < dummies_.size(); ++e) {
@@ -193,13 +194,12 @@ const KnownSlopes<D>& Walls<D>::known_slopes(const Particles<D>& particles) {
 }
 
 template <int D>
-void Walls<D>::add_rates(const Particles<D>& particles, const Gradients<D>& gradients, double level,
-                         Rate<D>& rate) {
+void Walls<D>::add_rates(const Particles<D>& particles, double level, Rate<D>& rate) {
   level_ = level;
-  add_wall_fluxes<D>(particles, gradients, dummies_, states_, list_, mass_force_, numerics_, level,
+  add_wall_fluxes<D>(particles, gradients_, dummies_, states_, list_, mass_force_, numerics_, level,
                      bodies_.size(), rate, pressure_);
   if (any_sticks_)
-    add_wall_friction<D>(particles, gradients, dummies_, list_, numerics_, sticks_, rate, friction_);
+    add_wall_friction<D>(particles, gradients_, dummies_, list_, numerics_, sticks_, rate, friction_);
 }
 
 template <int D>

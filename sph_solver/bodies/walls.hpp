@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -35,6 +36,7 @@ class Walls {
   void part(const Particles<D>& particles, NeighborList<D>& neighbors) const {
     if (!sheets_.none()) sheets_.part(bodies_, particles, neighbors);
   }
+  bool any_sheet() const { return !sheets_.none(); }
   void forget() { built_ = false; }
 
   /// Particles that in this step, begun at `start`, entered a body or went through a sheet by less than
@@ -49,9 +51,11 @@ class Walls {
   void begin_stage(const Particles<D>& particles, double t, OtherRanks<D>* others);
   /// What walls know of the gradients of this stage (S13).
   const KnownSlopes<D>& known_slopes(const Particles<D>& particles);
+  /// To be filled where pairs have gradients: those of the list's rows.
+  Gradients<D>& gradients() { return gradients_; }
   /// Terms of a stage (S12), (S14).
   /// level: of the pressure, taken off [Pa], as in the pairs of particles
-  void add_rates(const Particles<D>& particles, const Gradients<D>& gradients, double level, Rate<D>& rate);
+  void add_rates(const Particles<D>& particles, double level, Rate<D>& rate);
 
   /// For detection and shifting.
   void find_support(const Particles<D>& particles, const NeighborList<D>& neighbors);
@@ -60,9 +64,8 @@ class Walls {
   /// Mean loads of a step of length dt: each stage adds its share, so that they are what the particles lost.
   void begin_step(double dt);
   void add_stage_loads(const Particles<D>& particles, double weight);
-  const std::vector<BodyLoad>& loads() const {
-    return loads_;
-  }  ///< of the last step, from the owned particles
+  /// Of the last step, from the owned particles.
+  const std::vector<BodyLoad>& loads() const { return loads_; }
 
   /// Discs of walls whose force is wanted from now on. throws ConfigError: a disc in no wall that stays
   void watch(const std::vector<WallDisc>& discs, const DomainBox<D>& box) {
@@ -87,7 +90,8 @@ class Walls {
   std::vector<Body> bodies_;
   std::vector<char> sticks_;
   bool any_moves_ = false, any_sticks_ = false;
-  double reach_;  // [m]
+  double time_ = std::numeric_limits<double>::quiet_NaN();  // [s] for which bodies and dummies stand
+  double reach_;                                            // [m]
   Sheets<D> sheets_;
   Dummies<D> dummies_;
   WallList<D> list_;
@@ -95,6 +99,7 @@ class Walls {
   DummyStates<D> states_;
   RowAccelerations<D> mass_force_;
   KnownSlopes<D> known_;
+  Gradients<D> gradients_;
   RowForces<D> pressure_, friction_;  // of the last stage
   std::vector<BodyLoad> loads_, impulses_;
   WallSensors<D> sensors_;

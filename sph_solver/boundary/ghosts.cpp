@@ -183,17 +183,22 @@ void Ghosts<D>::refresh_images(Particles<D>& particles) const {
 }
 
 template <int D>
-void Ghosts<D>::refresh(Gradients<D>& gradients, std::size_t n_owned) const {
-  if (others_ != nullptr) others_->refresh(gradients, n_owned);
+template <class Real>
+void Ghosts<D>::refresh(PairRows<D, Real>& rows) const {
+  using Rows = PairRows<D, Real>;
+  if (others_ != nullptr) others_->refresh(rows);
   const auto n = static_cast<std::ptrdiff_t>(source_.size());
 #pragma omp parallel for schedule(static)
   for (auto k = static_cast<std::ptrdiff_t>(n_halo_); k < n; ++k) {
     const auto g = static_cast<std::size_t>(k);
-    const std::size_t from = source(g), to = n_owned + g;
-    for (std::size_t b = 0; b < D; ++b) {
-      gradients.p[b][to] = sign_[b][g] * gradients.p[b][from];
-      for (std::size_t a = 0; a < D; ++a)
-        gradients.u[a][b][to] = sign_[a][g] * sign_[b][g] * gradients.u[a][b][from];
+    const Real* from = rows.face(source(g)).q;
+    Real* to = rows.face(rows.n_owned() + g).q;
+    std::size_t next = Rows::k_strain;
+    for (std::size_t a = 0; a < D; ++a) {
+      const auto sign = static_cast<Real>(sign_[a][g]);
+      to[Rows::k_grad_p + a] = sign * from[Rows::k_grad_p + a];
+      for (std::size_t b = a; b < D; ++b, ++next)
+        to[next] = sign * static_cast<Real>(sign_[b][g]) * from[next];
     }
   }
 }
@@ -214,5 +219,9 @@ void Ghosts<D>::refresh_vector(std::array<std::vector<double>, D>& columns, std:
 
 template class Ghosts<2>;
 template class Ghosts<3>;
+template void Ghosts<2>::refresh(PairRows<2, double>&) const;
+template void Ghosts<2>::refresh(PairRows<2, float>&) const;
+template void Ghosts<3>::refresh(PairRows<3, double>&) const;
+template void Ghosts<3>::refresh(PairRows<3, float>&) const;
 
 }  // namespace littoral::sph

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "boundary/domain_box.hpp"
+#include "pairs/pair_rows.hpp"
 #include "parallel/other_ranks.hpp"
 #include "particles/particles.hpp"
-#include "physics/gradients.hpp"
 
 namespace littoral::sph {
 
@@ -36,7 +36,9 @@ class Ghosts {
   }
   /// Positions and states of the copies from their sources. comm: with the ranks of the halo, all of these
   void refresh(Particles<D>& particles) const;
-  void refresh(Gradients<D>& gradients, std::size_t n_owned) const;
+  /// The gradients in rows.
+  template <class Real>
+  void refresh(PairRows<D, Real>& rows) const;
   void refresh_scalar(std::vector<double>& column, std::size_t n_owned) const;  ///< (n_owned + n_ghost)
   void refresh_vector(std::array<std::vector<double>, D>& columns, std::size_t n_owned) const;
 

@@ -27,6 +27,9 @@ class FaceColumns {
   void add(std::vector<std::size_t> elements, std::vector<double> edges);
   bool empty() const { return columns_.empty(); }
 
+  /// Whether an element may be stretched.
+  bool moves(std::size_t e) const { return column_of_[e] != columns_.size(); }
+
   /// Where FV's phi is asked for: the centre of each tile, foot first, column by column.
   const std::vector<Point<D>>& probes() const { return probes_; }
   void set_probes(const std::vector<FaceElement<D>>& tiles);

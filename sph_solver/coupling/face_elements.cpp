@@ -160,8 +160,9 @@ void FaceElements<D>::follow_level(const Exterior& fv, double time) {
     others_->merge(known);
   }
   columns_.follow(phi, known, spacing_, elements_, mass_);
+  if (others_ == nullptr) return;
   for (std::size_t e = 0; e < owner_.size(); ++e)
-    owner_[e] = others_->regions().owner(elements_[e].centre, 0);
+    if (columns_.moves(e)) owner_[e] = others_->regions().owner(elements_[e].centre, 0);
 }
 
 template <int D>

@@ -24,7 +24,7 @@ template <int D>
 class FaceElements {
  public:
   FaceElements() = default;
-  FaceElements(const Layers<D>& layers, double spacing, FaceRows rows = FaceRows::fixed);
+  FaceElements(const Layers<D>& layers, double spacing, FaceRows rows);
 
   std::size_t size() const { return elements_.size(); }
   const FaceElement<D>& operator[](std::size_t e) const { return elements_[e]; }

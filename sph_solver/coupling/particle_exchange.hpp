@@ -99,10 +99,10 @@ class ParticleExchange {
                  PresentParticles<D>& around, std::vector<Birth>& births);
   void hear_of(const std::vector<Birth>& mine, const std::vector<std::size_t>& due,
                std::vector<PresentParticles<D>>& present, std::vector<Birth>& all);
-  double mass_of(std::size_t element) const {
-    return elements_[element].share * m0_;
-  }                                            ///< [kg] of its particles
-  double mass_due(std::size_t element) const;  ///< [kg] with so much on it a particle comes
+  /// [kg] of its particles
+  double mass_of(std::size_t element) const { return elements_[element].share * m0_; }
+  /// [kg] with so much on it a particle comes
+  double mass_due(std::size_t element) const;
   bool inject(Particles<D>& particles, const Exterior& fv, double time);
 
   Layers<D> layers_;

@@ -27,9 +27,9 @@ double coverage_at(const Particles<D>& particles, const NeighborList<D>& neighbo
   const Kernel<D> kernel(neighbors.kernel_radius());
   double sum = 0.0;
   neighbors.for_each_near(x, [&](std::size_t j) {
-    if (hidden<D>(particles, x, j, walls)) return;
     double r2 = 0.0;
     for (std::size_t d = 0; d < D; ++d) r2 += (particles.x[d][j] - x[d]) * (particles.x[d][j] - x[d]);
+    if (r2 >= kernel.R * kernel.R || hidden<D>(particles, x, j, walls)) return;
     sum += particles.V[j] * kernel.value(std::sqrt(r2));
   });
   return sum;
@@ -46,13 +46,13 @@ std::optional<PointValue<D>> value_at(const Particles<D>& particles, const Neigh
   PointValue<D> mean;
   const auto each = [&](const auto& f) {
     neighbors.for_each_near(x, [&](std::size_t j) {
-      if (hidden<D>(particles, x, j, walls)) return;
       std::array<double, D> y;
       double r2 = 0.0;
       for (std::size_t d = 0; d < D; ++d) {
         y[d] = (particles.x[d][j] - x[d]) * kernel.inv_R;
         r2 += y[d] * y[d];
       }
+      if (r2 >= 1.0 || hidden<D>(particles, x, j, walls)) return;
       const double w = particles.V[j] * kernel.value(std::sqrt(r2) * kernel.R);
       if (w > 0.0) f(j, w, y);
     });

@@ -47,7 +47,7 @@ template <int D>
 void CellGrid<D>::bin_exactly(const Columns& x, std::size_t n, double side) {
   find_bounds(x, n);
   order_.resize(n);
-  cell_of_.resize(n);
+  std::vector<std::int32_t> cell_of(n);
   side_ = side;
   inv_side_ = 1.0 / side_;
   std::size_t cells = 1;
@@ -65,14 +65,14 @@ void CellGrid<D>::bin_exactly(const Columns& x, std::size_t n, double side) {
       const double k = std::floor(x[d][static_cast<std::size_t>(i)] * inv_side_) - first_[d];
       cell = cell * n_[d] + std::clamp<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(k), 0, n_[d] - 1);
     }
-    cell_of_[static_cast<std::size_t>(i)] = static_cast<std::int32_t>(cell);
+    cell_of[static_cast<std::size_t>(i)] = static_cast<std::int32_t>(cell);
   }
 
   start_.assign(cells + 1, 0);  // counting sort: stable, so the same for any number of threads
-  for (std::size_t i = 0; i < n; ++i) ++start_[static_cast<std::size_t>(cell_of_[i]) + 1];
+  for (std::size_t i = 0; i < n; ++i) ++start_[static_cast<std::size_t>(cell_of[i]) + 1];
   for (std::size_t c = 0; c < cells; ++c) start_[c + 1] += start_[c];
   for (std::size_t i = 0; i < n; ++i)
-    order_[start_[static_cast<std::size_t>(cell_of_[i])]++] = static_cast<std::int32_t>(i);
+    order_[start_[static_cast<std::size_t>(cell_of[i])]++] = static_cast<std::int32_t>(i);
   for (std::size_t c = cells; c > 0; --c) start_[c] = start_[c - 1];
   start_[0] = 0;
 }

@@ -69,9 +69,8 @@ class CellGrid {
   std::array<std::ptrdiff_t, D> n_{};
   double side_ = 0.0;
   double inv_side_ = 0.0;
-  std::vector<std::int32_t> cell_of_;  // (n)
-  std::vector<std::int32_t> order_;    // (n)
-  std::vector<std::size_t> start_;     // (cells + 1)
+  std::vector<std::int32_t> order_;  // (n)
+  std::vector<std::size_t> start_;   // (cells + 1)
 };
 
 extern template class CellGrid<2>;

@@ -16,10 +16,11 @@ constexpr std::size_t k_spare = 16;        // a share of the lists gets 1/16 mor
 }  // namespace
 
 template <int D>
-const std::vector<std::int32_t>& NeighborList<D>::space_order(const Particles<D>& particles) {
-  owned_grid_.bin(particles.x, particles.n_owned, kernel_radius_ / k_cells_per_reach);
-  owned_grid_.sort_cells(particles.x, particles.id);
-  return owned_grid_.order();
+std::vector<std::int32_t> NeighborList<D>::space_order(const Particles<D>& particles) const {
+  CellGrid<D> grid;
+  grid.bin(particles.x, particles.n_owned, kernel_radius_ / k_cells_per_reach);
+  grid.sort_cells(particles.x, particles.id);
+  return grid.order();
 }
 
 template <int D>
@@ -42,11 +43,12 @@ void NeighborList<D>::build(const Particles<D>& particles, double cell_side) {
   grid_.bin_exactly(particles.x, n_all, cell_side);
   grid_.sort_cells(particles.x, particles.id);
   const auto& order = grid_.order();
+  std::array<std::vector<double>, D> x_sorted;
   for (std::size_t d = 0; d < D; ++d) {
-    x_sorted_[d].resize(n_all);
+    x_sorted[d].resize(n_all);
     const auto count = static_cast<std::ptrdiff_t>(n_all);
     const double* from = particles.x[d].data();
-    double* to = x_sorted_[d].data();
+    double* to = x_sorted[d].data();
 #pragma omp parallel for schedule(static)
     for (std::ptrdiff_t k = 0; k < count; ++k) to[k] = from[order[static_cast<std::size_t>(k)]];
     x_at_build_[d].assign(particles.x[d].begin(), particles.x[d].begin() + static_cast<std::ptrdiff_t>(n));
@@ -54,12 +56,14 @@ void NeighborList<D>::build(const Particles<D>& particles, double cell_side) {
 
   start_.assign(n + 1, 0);
   std::size_t room = list_.capacity() / static_cast<std::size_t>(omp_get_max_threads());
-  for (std::size_t needed = fill(particles, room); needed > room; needed = fill(particles, room))
+  for (std::size_t needed = fill(particles, x_sorted, room); needed > room;
+       needed = fill(particles, x_sorted, room))
     room = needed + needed / k_spare;
 }
 
 template <int D>
-std::size_t NeighborList<D>::fill(const Particles<D>& particles, std::size_t room) {
+std::size_t NeighborList<D>::fill(const Particles<D>& particles,
+                                  const std::array<std::vector<double>, D>& x_sorted, std::size_t room) {
   const std::size_t n = particles.n_owned;
   const auto most_threads = static_cast<std::size_t>(omp_get_max_threads());
   const double reach_squared = reach() * reach();
@@ -86,7 +90,7 @@ std::size_t NeighborList<D>::fill(const Particles<D>& particles, std::size_t roo
       std::int32_t* const row = fits ? share + used : too_long.data();
       std::size_t length = 0;
       grid_.for_each_range(x, reach(), [&](std::size_t b, std::size_t e) {
-        length += append_within<D>(x_sorted_, order, x, reach_squared, static_cast<std::int32_t>(i), b, e,
+        length += append_within<D>(x_sorted, order, x, reach_squared, static_cast<std::int32_t>(i), b, e,
                                    row + length);
       });
       start_[i + 1] = length;
@@ -107,12 +111,12 @@ std::size_t NeighborList<D>::fill(const Particles<D>& particles, std::size_t roo
 }
 
 template <int D>
-void NeighborList<D>::drop_removed() {
+void NeighborList<D>::drop_marked() {
   std::size_t kept = 0, begin = 0;
   for (std::size_t i = 0; i < n_rows(); ++i) {
     const std::size_t end = start_[i + 1];
     for (std::size_t pair = begin; pair < end; ++pair)
-      if (list_[pair] != k_removed) list_[kept++] = list_[pair];
+      if (list_[pair] != k_marked) list_[kept++] = list_[pair];
     start_[i + 1] = kept;
     begin = end;
   }

@@ -26,7 +26,7 @@ class NeighborList {
 
   /// Order that sorts the owned particles by cell, for Particles::permute, whatever the skin. Does not touch
   /// the lists.
-  const std::vector<std::int32_t>& space_order(const Particles<D>& particles);
+  std::vector<std::int32_t> space_order(const Particles<D>& particles) const;
   /// From the positions of owned particles and copies. cell_side [m]: the least one or more, the same on all
   /// ranks; without: what suits the particles here
   void build(const Particles<D>& particles);
@@ -37,19 +37,21 @@ class NeighborList {
   /// made anew would be the same.
   bool outdated(const Particles<D>& particles, double ahead = 0.0) const;
 
-  /// Takes pairs out: of the rows i with concerns(i), those with parted(i, j), until the next build.
+  /// Marks pairs to be taken out until the next build: of the rows i with concerns(i), those with parted(i,
+  /// j). drop_marked() then takes out all that were marked; lists must not be used in between.
   template <class Concerns, class Parted>
-  void remove_pairs(const Concerns& concerns, const Parted& parted) {
+  void mark_pairs(const Concerns& concerns, const Parted& parted) {
     const auto n = static_cast<std::ptrdiff_t>(n_rows());
 #pragma omp parallel for schedule(static)
     for (std::ptrdiff_t k = 0; k < n; ++k) {
       const auto i = static_cast<std::size_t>(k);
       if (!concerns(i)) continue;
       for (std::size_t pair = start_[i]; pair < start_[i + 1]; ++pair)
-        if (parted(i, static_cast<std::size_t>(list_[pair]))) list_[pair] = k_removed;
+        if (list_[pair] != k_marked && parted(i, static_cast<std::size_t>(list_[pair])))
+          list_[pair] = k_marked;
     }
-    drop_removed();
   }
+  void drop_marked();
 
   void forget() { built_ = false; }  ///< outdated() until the next build
 
@@ -71,21 +73,19 @@ class NeighborList {
  private:
   /// Each thread fills the rows of a contiguous share of the particles into its part of list_, `room` long;
   /// then the shares are joined in order. Returns the room the longest share needs: more than `room`, and
-  /// nothing is joined.
-  std::size_t fill(const Particles<D>& particles, std::size_t room);
-  static constexpr std::int32_t k_removed = -1;
-  void drop_removed();
+  /// nothing is joined. x_sorted: positions in the grid's order
+  std::size_t fill(const Particles<D>& particles, const std::array<std::vector<double>, D>& x_sorted,
+                   std::size_t room);
+  static constexpr std::int32_t k_marked = -1;
 
   double kernel_radius_;
   double skin_;
   CellGrid<D> grid_;
-  std::array<std::vector<double>, D> x_sorted_;    // positions in the grid's order
   std::array<std::vector<double>, D> x_at_build_;  // of the owned
   std::vector<std::size_t> start_;
   std::vector<std::int32_t> list_;
   std::uint64_t revision_ = 0;  // of the particles, at build
   bool built_ = false;
-  CellGrid<D> owned_grid_;
 };
 
 extern template class NeighborList<2>;

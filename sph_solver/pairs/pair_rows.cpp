@@ -27,6 +27,7 @@ void PairRows<D, Real>::pack_states(const Particles<D>& particles, const Kernel<
   unit_ = static_cast<Real>(1.0 / units);
   n_owned_ = particles.n_owned;
   state_.resize(particles.size());
+  face_.resize(particles.size());
   const auto n = static_cast<std::ptrdiff_t>(particles.size());
 #pragma omp parallel for schedule(static)
   for (std::ptrdiff_t row = 0; row < n; ++row) {
@@ -42,27 +43,23 @@ void PairRows<D, Real>::pack_states(const Particles<D>& particles, const Kernel<
     q[k_V] = static_cast<Real>(-kernel.slope * particles.V[i]);
     q[k_p] = static_cast<Real>(particles.p[i] - p0);
     for (std::size_t a = k_n_state; a < k_state_stride; ++a) q[a] = 0;
+    face_[i].q[k_rho] = static_cast<Real>(particles.rho[i]);
   }
 }
 
 template <int D, class Real>
-void PairRows<D, Real>::pack_faces(const Particles<D>& particles, const Gradients<D>* gradients) {
-  face_.resize(particles.size());
-  const auto n = static_cast<std::ptrdiff_t>(particles.size());
+void PairRows<D, Real>::set_gradients(const Gradients<D>& gradients) {
+  const auto n = static_cast<std::ptrdiff_t>(size());
 #pragma omp parallel for schedule(static)
   for (std::ptrdiff_t row = 0; row < n; ++row) {
     const auto i = static_cast<std::size_t>(row);
-    Real* q = face_[i].q;
-    for (std::size_t a = 0; a < k_face_stride; ++a) q[a] = 0;
-    q[k_rho] = static_cast<Real>(particles.rho[i]);
-    if (gradients == nullptr) continue;
-    std::size_t next = k_strain;
+    std::array<double, D> grad_p;
+    std::array<std::array<double, D>, D> grad_u;
     for (std::size_t a = 0; a < D; ++a) {
-      q[k_grad_p + a] = static_cast<Real>(gradients->p[a][i]);
-      q[next++] = static_cast<Real>(gradients->u[a][a][i]);
-      for (std::size_t b = a + 1; b < D; ++b)
-        q[next++] = static_cast<Real>(gradients->u[a][b][i] + gradients->u[b][a][i]);
+      grad_p[a] = gradients.p[a][i];
+      for (std::size_t b = 0; b < D; ++b) grad_u[a][b] = gradients.u[a][b][i];
     }
+    set_gradients(i, grad_p, grad_u);
   }
 }
 

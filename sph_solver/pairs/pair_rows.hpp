@@ -37,10 +37,22 @@ class PairRows {
     Real q[k_face_stride];
   };
 
-  /// Rows of all particles; copies current. p0: pressure on the surface, taken off.
+  /// Rows of all particles, but for the gradients in those of faces; copies current. p0: pressure on the
+  /// surface, taken off.
   void pack_states(const Particles<D>& particles, const Kernel<D>& kernel, double p0);
-  /// To be called after pack_states. gradients: null, first order.
-  void pack_faces(const Particles<D>& particles, const Gradients<D>* gradients);
+  /// To be called after pack_states. grad_u[a][b] = d u_a / d x_b
+  void set_gradients(std::size_t i, const std::array<double, D>& grad_p,
+                     const std::array<std::array<double, D>, D>& grad_u) {
+    Real* q = face_[i].q;
+    std::size_t next = k_strain;
+    for (std::size_t a = 0; a < D; ++a) {
+      q[k_grad_p + a] = static_cast<Real>(grad_p[a]);
+      q[next++] = static_cast<Real>(grad_u[a][a]);
+      for (std::size_t b = a + 1; b < D; ++b) q[next++] = static_cast<Real>(grad_u[a][b] + grad_u[b][a]);
+    }
+  }
+  /// Gradients of all particles, from columns.
+  void set_gradients(const Gradients<D>& gradients);
 
   std::size_t n_owned() const { return n_owned_; }
   std::size_t size() const { return state_.size(); }  ///< owned and copies
@@ -48,6 +60,7 @@ class PairRows {
   const Real* faces() const { return face_.empty() ? nullptr : face_[0].q; }
   const State& state(std::size_t i) const { return state_[i]; }
   const Face& face(std::size_t i) const { return face_[i]; }
+  Face& face(std::size_t i) { return face_[i]; }
   Real unit() const { return unit_; }  ///< [m] of a position; 1 for double
   std::size_t bytes() const { return state_.capacity() * sizeof(State) + face_.capacity() * sizeof(Face); }
 

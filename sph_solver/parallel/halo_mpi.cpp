@@ -158,19 +158,19 @@ void Halo<D>::refresh(Particles<D>& particles) {
 }
 
 template <int D>
-void Halo<D>::refresh(Gradients<D>& gradients, std::size_t n_owned) {
+template <class Real>
+void Halo<D>::refresh(PairRows<D, Real>& rows) {
+  using Rows = PairRows<D, Real>;
+  constexpr std::size_t k_numbers = Rows::k_n_face - Rows::k_grad_p;
+  constexpr std::size_t k_width = (k_numbers * sizeof(Real) + sizeof(double) - 1) / sizeof(double);
   exchange(
-      D + D * D,
+      k_width,
       [&](const HaloEntry& entry, double* to) {
-        const auto i = static_cast<std::size_t>(entry.particle);
-        for (std::size_t b = 0; b < D; ++b) *to++ = gradients.p[b][i];
-        for (std::size_t a = 0; a < D; ++a)
-          for (std::size_t b = 0; b < D; ++b) *to++ = gradients.u[a][b][i];
+        std::memcpy(to, rows.face(static_cast<std::size_t>(entry.particle)).q + Rows::k_grad_p,
+                    k_numbers * sizeof(Real));
       },
       [&](std::size_t h, const double* from) {
-        for (std::size_t b = 0; b < D; ++b) gradients.p[b][n_owned + h] = *from++;
-        for (std::size_t a = 0; a < D; ++a)
-          for (std::size_t b = 0; b < D; ++b) gradients.u[a][b][n_owned + h] = *from++;
+        std::memcpy(rows.face(rows.n_owned() + h).q + Rows::k_grad_p, from, k_numbers * sizeof(Real));
       });
 }
 
@@ -188,5 +188,9 @@ void Halo<D>::refresh(const std::vector<std::vector<double>*>& columns, std::siz
 
 template class Halo<2>;
 template class Halo<3>;
+template void Halo<2>::refresh(PairRows<2, double>&);
+template void Halo<2>::refresh(PairRows<2, float>&);
+template void Halo<3>::refresh(PairRows<3, double>&);
+template void Halo<3>::refresh(PairRows<3, float>&);
 
 }  // namespace littoral::sph

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "boundary/domain_box.hpp"
+#include "pairs/pair_rows.hpp"
 #include "parallel/halo.hpp"
 #include "particles/particles.hpp"
-#include "physics/gradients.hpp"
 
 namespace littoral::sph {
 
@@ -33,7 +33,8 @@ class Halo {
   std::size_t create(Particles<D>& particles, double reach, const RankBox<D>& wants);
   /// comm: with the neighbours, as all of these
   void refresh(Particles<D>& particles);
-  void refresh(Gradients<D>& gradients, std::size_t n_owned);
+  template <class Real>
+  void refresh(PairRows<D, Real>& rows);  ///< the gradients in them
   void refresh(const std::vector<std::vector<double>*>& columns, std::size_t n_owned);
 
   std::size_t size() const { return n_halo_; }

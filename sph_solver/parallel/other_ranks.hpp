@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <vector>
 
+#include "pairs/pair_rows.hpp"
 #include "parallel/regions.hpp"
 #include "particles/particles.hpp"
-#include "physics/gradients.hpp"
 
 namespace littoral::sph {
 
@@ -42,7 +42,8 @@ class OtherRanks {
   /// Renews what the halo holds, the first copies behind the owned ones. comm: between neighbours, one
   /// message each way
   virtual void refresh(Particles<D>& particles) = 0;
-  virtual void refresh(Gradients<D>& gradients, std::size_t n_owned) = 0;
+  virtual void refresh(PairRows<D, double>& rows) = 0;  ///< the gradients in them, as below
+  virtual void refresh(PairRows<D, float>& rows) = 0;
   virtual void refresh_scalar(Column& column, std::size_t n_owned) = 0;
   virtual void refresh_vector(std::array<Column, D>& columns, std::size_t n_owned) = 0;
 };

@@ -45,7 +45,8 @@ class MpiRanks final : public OtherRanks<D> {
   std::size_t create_halo(Particles<D>& particles, double reach, std::array<double, D> lower,
                           std::array<double, D> upper) override;
   void refresh(Particles<D>& particles) override { halo_.refresh(particles); }
-  void refresh(Gradients<D>& gradients, std::size_t n_owned) override { halo_.refresh(gradients, n_owned); }
+  void refresh(PairRows<D, double>& rows) override { halo_.refresh(rows); }
+  void refresh(PairRows<D, float>& rows) override { halo_.refresh(rows); }
   void refresh_scalar(std::vector<double>& column, std::size_t n_owned) override;
   void refresh_vector(std::array<std::vector<double>, D>& columns, std::size_t n_owned) override;
 

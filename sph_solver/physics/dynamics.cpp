@@ -137,7 +137,9 @@ void Dynamics<D>::prepare(Particles<D>& particles, double t, StepHooks<D>* hooks
   if (numerics_.free_surface && !surface_current_) {
     const PhaseSeconds::Scope scope(seconds_, Phase::surface);
     surface_current_ = true;
-    surface_.detect(particles, neighbors_, ghosts_, walls_ ? &walls_->support() : nullptr);
+    // a step's shift is due next, of the same positions
+    crowding_known_ = numerics_.shifting && dt > 0.0;
+    surface_.detect(particles, neighbors_, ghosts_, walls_ ? &walls_->support() : nullptr, crowding_known_);
     if (hooks != nullptr) hooks->adjust_surface(particles, t);
     surface_.mark_near(particles, neighbors_, ghosts_);
   }
@@ -156,12 +158,12 @@ void Dynamics<D>::pair_loops(const Particles<D>& particles, PairRows<D, Real>& r
     const PhaseSeconds::Scope scope(seconds_, Phase::gradients);
     rows.pack_states(particles, Kernel<D>(numerics_.kernel_radius), pressure_level_);
     if (second_order) {
-      compute_gradients(rows, neighbors_, gradients_, known);  // (S3), (S13)
-      ghosts_.refresh(gradients_, particles.n_owned);
+      compute_gradients(rows, neighbors_, known,
+                        known != nullptr ? &walls_->gradients() : nullptr);  // (S3), (S13)
+      ghosts_.refresh(rows);
     }
   }
   const PhaseSeconds::Scope scope(seconds_, Phase::fluxes);
-  rows.pack_faces(particles, second_order ? &gradients_ : nullptr);
   riemann_fluxes(particles, rows, neighbors_, numerics_.eos, numerics_.reconstruction, numerics_.riemann,
                  rate_);  // (S4)-(S7)
   work_.pairs += static_cast<std::int64_t>(neighbors_.n_pairs());
@@ -184,7 +186,7 @@ void Dynamics<D>::right_hand_side(Particles<D>& particles, double t) {
   std::visit([&](auto& rows) { pair_loops(particles, rows); }, rows_);
   if (walls_) {
     const PhaseSeconds::Scope scope(seconds_, Phase::walls);
-    walls_->add_rates(particles, gradients_, pressure_level_, rate_);  // (S12), (S14)
+    walls_->add_rates(particles, pressure_level_, rate_);  // (S12), (S14)
   }
   const PhaseSeconds::Scope scope(seconds_, Phase::terms);
   for (const auto& term : terms_) term->add(particles, neighbors_, t, rate_);
@@ -200,7 +202,8 @@ void Dynamics<D>::step(Particles<D>& particles, double t, double dt, StepHooks<D
   if (numerics_.shifting) {
     const PhaseSeconds::Scope scope(seconds_, Phase::shift);
     shifting_.compute(particles, neighbors_, numerics_.free_surface ? &surface_ : nullptr,
-                      walls_ ? &walls_->support() : nullptr);  // (S10)
+                      walls_ ? &walls_->support() : nullptr, crowding_known_);  // (S10)
+    crowding_known_ = false;
     if (hooks != nullptr) hooks->adjust_shift(particles, t);
   }
   remember_start(particles);
@@ -222,11 +225,12 @@ void Dynamics<D>::step(Particles<D>& particles, double t, double dt, StepHooks<D
   }
   check(particles, t, dt);
   if (walls_) {
+    const PhaseSeconds::Scope scope(seconds_, Phase::walls);
     walls_->move_to(t + dt);
     const std::size_t put_back =
         walls_->keep_out(particles, x_start_, k_mirror_tolerance * numerics_.spacing, t + dt);
     work_.kept_out += static_cast<std::int64_t>(put_back);
-    if (put_back > 0)
+    if (put_back > 0 && walls_->any_sheet())
       neighbors_.forget();  // they may have been made while it was on the wrong side of a sheet
   }
   if (others_ != nullptr) others_->take_largest(&most_acceleration_, 1);

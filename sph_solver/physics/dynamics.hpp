@@ -107,7 +107,6 @@ class Dynamics {
   Ghosts<D> ghosts_;
   NeighborList<D> neighbors_;
   std::variant<PairRows<D, double>, PairRows<D, float>> rows_;  // for numerics_.precision
-  Gradients<D> gradients_;
   Rate<D> rate_;
   SurfaceDetection<D> surface_;
   Shifting<D> shifting_;
@@ -115,6 +114,7 @@ class Dynamics {
   std::unique_ptr<Walls<D>> walls_;
   TensionSwitch<D>* tension_ = nullptr;  // among terms_, if the scene asks for it
   bool surface_current_ = false;         // flags belong to the positions as they stand
+  bool crowding_known_ = false;          // detection has left it for the shift of this step
   double pressure_level_;                // [Pa] taken off in the pair loops
   double most_acceleration_ = 0.0;       // [m/s^2] of the last right-hand side, driven particles apart
 

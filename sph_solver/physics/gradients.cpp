@@ -59,19 +59,10 @@ SymmetricMatrix<D> usable_inverse(const SymmetricMatrix<D>& B) {
   return B.least_eigenvalue_at_least() > k_least_eigenvalue ? B.inverse() : SymmetricMatrix<D>{};
 }
 
-}  // namespace
-
-template <int D>
-void Gradients<D>::resize(std::size_t n) {
-  for (auto& column : p) column.resize(n);
-  for (auto& row : u)
-    for (auto& column : row) column.resize(n);
-}
-
-template <int D, class Real>
-void compute_gradients(const PairRows<D, Real>& rows, const NeighborList<D>& neighbors,
-                       Gradients<D>& gradients, const KnownSlopes<D>* known) {
-  gradients.resize(rows.size());
+/// use(i, grad p, grad u) of every owned particle.
+template <int D, class Real, class Use>
+void for_each_gradient(const PairRows<D, Real>& rows, const NeighborList<D>& neighbors,
+                       const KnownSlopes<D>* known, const Use& use) {
   const auto inv_R = static_cast<Real>(1.0 / neighbors.kernel_radius());
   const auto n = static_cast<std::ptrdiff_t>(rows.n_owned());
 #pragma omp parallel for schedule(static)
@@ -87,12 +78,49 @@ void compute_gradients(const PairRows<D, Real>& rows, const NeighborList<D>& nei
       for (std::size_t b = 0; b < D; ++b) slope[b] += sums.p[b];
       grad_p = usable_inverse(sums.B + known->B[wall]) * slope;
     }
-    for (std::size_t b = 0; b < D; ++b) gradients.p[b][i] = grad_p[b];
-    for (std::size_t a = 0; a < D; ++a) {
-      const auto grad_u = L * sums.u[a];
-      for (std::size_t b = 0; b < D; ++b) gradients.u[a][b][i] = grad_u[b];
-    }
+    std::array<std::array<double, D>, D> grad_u;
+    for (std::size_t a = 0; a < D; ++a) grad_u[a] = L * sums.u[a];
+    use(i, grad_p, grad_u);
   }
+}
+
+/// Into columns.
+template <int D>
+void put(Gradients<D>& gradients, std::size_t place, const std::array<double, D>& grad_p,
+         const std::array<std::array<double, D>, D>& grad_u) {
+  for (std::size_t b = 0; b < D; ++b) {
+    gradients.p[b][place] = grad_p[b];
+    for (std::size_t a = 0; a < D; ++a) gradients.u[a][b][place] = grad_u[a][b];
+  }
+}
+
+}  // namespace
+
+template <int D>
+void Gradients<D>::resize(std::size_t n) {
+  for (auto& column : p) column.resize(n);
+  for (auto& row : u)
+    for (auto& column : row) column.resize(n);
+}
+
+template <int D, class Real>
+void compute_gradients(PairRows<D, Real>& rows, const NeighborList<D>& neighbors, const KnownSlopes<D>* known,
+                       Gradients<D>* beside_walls) {
+  if (beside_walls != nullptr) beside_walls->resize(known->slope.size());
+  for_each_gradient(rows, neighbors, known, [&](std::size_t i, const auto& grad_p, const auto& grad_u) {
+    rows.set_gradients(i, grad_p, grad_u);
+    if (beside_walls != nullptr && known->row_of[i] >= 0)
+      put<D>(*beside_walls, static_cast<std::size_t>(known->row_of[i]), grad_p, grad_u);
+  });
+}
+
+template <int D, class Real>
+void compute_gradients(const PairRows<D, Real>& rows, const NeighborList<D>& neighbors,
+                       Gradients<D>& gradients) {
+  gradients.resize(rows.size());
+  for_each_gradient<D, Real>(
+      rows, neighbors, nullptr,
+      [&](std::size_t i, const auto& grad_p, const auto& grad_u) { put<D>(gradients, i, grad_p, grad_u); });
 }
 
 template <int D>
@@ -100,19 +128,23 @@ void compute_gradients(const Particles<D>& particles, const NeighborList<D>& nei
                        Gradients<D>& gradients) {
   PairRows<D, double> rows;
   rows.pack_states(particles, Kernel<D>(neighbors.kernel_radius()), 0.0);
-  compute_gradients(rows, neighbors, gradients);
+  compute_gradients<D, double>(rows, neighbors, gradients);
 }
 
 template struct Gradients<2>;
 template struct Gradients<3>;
-template void compute_gradients(const PairRows<2, double>&, const NeighborList<2>&, Gradients<2>&,
-                                const KnownSlopes<2>*);
-template void compute_gradients(const PairRows<3, double>&, const NeighborList<3>&, Gradients<3>&,
-                                const KnownSlopes<3>*);
-template void compute_gradients(const PairRows<2, float>&, const NeighborList<2>&, Gradients<2>&,
-                                const KnownSlopes<2>*);
-template void compute_gradients(const PairRows<3, float>&, const NeighborList<3>&, Gradients<3>&,
-                                const KnownSlopes<3>*);
+template void compute_gradients(PairRows<2, double>&, const NeighborList<2>&, const KnownSlopes<2>*,
+                                Gradients<2>*);
+template void compute_gradients(const PairRows<2, double>&, const NeighborList<2>&, Gradients<2>&);
+template void compute_gradients(PairRows<2, float>&, const NeighborList<2>&, const KnownSlopes<2>*,
+                                Gradients<2>*);
+template void compute_gradients(const PairRows<2, float>&, const NeighborList<2>&, Gradients<2>&);
+template void compute_gradients(PairRows<3, double>&, const NeighborList<3>&, const KnownSlopes<3>*,
+                                Gradients<3>*);
+template void compute_gradients(const PairRows<3, double>&, const NeighborList<3>&, Gradients<3>&);
+template void compute_gradients(PairRows<3, float>&, const NeighborList<3>&, const KnownSlopes<3>*,
+                                Gradients<3>*);
+template void compute_gradients(const PairRows<3, float>&, const NeighborList<3>&, Gradients<3>&);
 template void compute_gradients<2>(const Particles<2>&, const NeighborList<2>&, Gradients<2>&);
 template void compute_gradients<3>(const Particles<3>&, const NeighborList<3>&, Gradients<3>&);
 

@@ -13,7 +13,7 @@ namespace littoral::sph {
 template <int D, class Real>
 class PairRows;
 
-/// Gradients of p and u at every particle (n_owned + n_ghost).
+/// Gradients of p and u, in columns.
 template <int D>
 struct Gradients {
   using Column = std::vector<double>;
@@ -25,7 +25,7 @@ struct Gradients {
 /// What walls know of the pressure's gradient at some particles: their part of both sides of (S3).
 template <int D>
 struct KnownSlopes {
-  std::vector<std::int32_t> row_of;          // (n_owned) -1: no wall
+  const std::int32_t* row_of = nullptr;      // (n_owned) -1: no wall; the wall list's own
   std::vector<SymmetricMatrix<D>> B;         // (rows)
   std::vector<std::array<double, D>> slope;  // (rows) [Pa/m]
 };
@@ -34,11 +34,16 @@ struct KnownSlopes {
 /// any cloud. Where the neighbours nearly lie in a plane (spray) B has no usable inverse and the gradient is
 /// 0: first order.
 /// in    rows with states, copies current; known: added for the pressure (S13), null without walls
-/// out   gradients, owned part (the caller refreshes the copies)
+/// out   rows with gradients, owned part (the caller refreshes the copies); beside_walls: those of known's
+///       rows, whole
 /// comm  local
 template <int D, class Real>
+void compute_gradients(PairRows<D, Real>& rows, const NeighborList<D>& neighbors,
+                       const KnownSlopes<D>* known = nullptr, Gradients<D>* beside_walls = nullptr);
+/// Those of all owned particles in columns.
+template <int D, class Real>
 void compute_gradients(const PairRows<D, Real>& rows, const NeighborList<D>& neighbors,
-                       Gradients<D>& gradients, const KnownSlopes<D>* known = nullptr);
+                       Gradients<D>& gradients);
 /// The same in double, packing rows for this call alone.
 template <int D>
 void compute_gradients(const Particles<D>& particles, const NeighborList<D>& neighbors,

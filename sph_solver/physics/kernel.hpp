@@ -5,6 +5,7 @@
 namespace littoral::sph {
 
 constexpr double k_pi = 3.14159265358979323846;
+constexpr double k_least_distance = 1e-9;  // of R; keeps 1/r finite for coincident particles
 
 /// Wendland C2 on the compact radius R (S1):  W = A (1-s)^4 (1+4s) / R^D,  s = r/R <= 1.
 template <int D>

@@ -10,17 +10,17 @@ enum class Reconstruction : std::uint8_t { first_order, unlimited, minmod, van_l
 
 /// What a particle's Riemann problem with a wall is made of.
 ///   linear        one-sided: its state carried on by its gradients, to the wall and through it (S12)
-///   constant      one-sided: its values (Zhang, Hu & Adams 2017); the pressure's slope is that of water at
-///   rest extrapolated  two-sided: dummies with the mean pressure and the mirrored mean velocity of the water
-///   around
-///                 them (Adami, Hu & Adams 2012)
+///   constant      one-sided: its values (Zhang, Hu & Adams 2017); the pressure's slope is that of water
+///                 at rest
+///   extrapolated  two-sided: dummies with the mean pressure and the mirrored mean velocity of the water
+///                 around them (Adami, Hu & Adams 2012)
 enum class WallStates : std::uint8_t { linear, constant, extrapolated };
 
 /// How strongly the face pressure answers the jump of velocity.
 ///   linearised       with the full impedance rho c, eq. (12)
-///   low_dissipation  with min(c, 3 (u_l - u_r)) in place of c where the sides approach, with none where they
-///   part
-///                    (Zhang, Hu & Adams 2017): sound is damped less than by (12), and so is everything else
+///   low_dissipation  with min(c, 3 (u_l - u_r)) in place of c where the sides approach, with none where
+///                    they part (Zhang, Hu & Adams 2017): sound is damped less than by (12), and so is
+///                    everything else
 enum class RiemannSolver : std::uint8_t { linearised, low_dissipation };
 
 /// The pressure force where p is below p0: (11) as it stands, or switched (S15).

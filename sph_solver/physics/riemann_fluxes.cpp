@@ -5,8 +5,6 @@
 namespace littoral::sph {
 namespace {
 
-constexpr double k_least_distance = 1e-9;  // of R; keeps 1/r finite for coincident particles
-
 /// Sums over the neighbours of one particle: sum V_j F r (u_E - u_i) and sum V_j F (p_E - p0) x_ij.
 template <int D>
 struct Sums {
@@ -136,7 +134,7 @@ void riemann_fluxes(const Particles<D>& particles, const NeighborList<D>& neighb
                     RiemannSolver solver, Rate<D>& rate) {
   PairRows<D, double> rows;
   rows.pack_states(particles, Kernel<D>(neighbors.kernel_radius()), eos.p0);
-  rows.pack_faces(particles, reconstruction == Reconstruction::first_order ? nullptr : &gradients);
+  if (reconstruction != Reconstruction::first_order) rows.set_gradients(gradients);
   riemann_fluxes(particles, rows, neighbors, eos, reconstruction, solver, rate);
 }
 

@@ -31,15 +31,18 @@ std::array<double, D> sum_pairs(const Particles<D>& particles, const Kernel<D>& 
 
 template <int D>
 void Shifting<D>::compute(Particles<D>& particles, const NeighborList<D>& neighbors,
-                          const SurfaceDetection<D>* surface, const WallSupport<D>* walls) const {
+                          const SurfaceDetection<D>* surface, const WallSupport<D>* walls,
+                          bool crowding_known) const {
   const Kernel<D> kernel(neighbors.kernel_radius());
   const auto n = static_cast<std::ptrdiff_t>(particles.n_owned);
 #pragma omp parallel for schedule(static)
   for (std::ptrdiff_t row = 0; row < n; ++row) {
     const auto i = static_cast<std::size_t>(row);
     const std::size_t begin = neighbors.start()[i];
-    auto crowding =
-        sum_pairs(particles, kernel, i, neighbors.list() + begin, neighbors.start()[i + 1] - begin);
+    std::array<double, D> crowding;
+    for (std::size_t d = 0; d < D; ++d) crowding[d] = particles.shift[d][i];
+    if (!crowding_known)
+      crowding = sum_pairs(particles, kernel, i, neighbors.list() + begin, neighbors.start()[i + 1] - begin);
     double length = 0.0;
     const auto by_walls = walls ? walls->crowding(i) : std::array<double, D>{};
     for (std::size_t d = 0; d < D; ++d) {

@@ -18,9 +18,9 @@ class Shifting {
  public:
   explicit Shifting(double reference_velocity) : velocity_(reference_velocity) {}
   /// out: particles.shift. surface: null where the scene has no free surface; walls: null where it has no
-  /// bodies.
+  /// bodies; crowding_known: sum_j V_j grad W_ij stands in particles.shift already.
   void compute(Particles<D>& particles, const NeighborList<D>& neighbors, const SurfaceDetection<D>* surface,
-               const WallSupport<D>* walls = nullptr) const;
+               const WallSupport<D>* walls = nullptr, bool crowding_known = false) const;
 
  private:
   void restrict_to_surface(Particles<D>& particles, const SurfaceDetection<D>& surface) const;

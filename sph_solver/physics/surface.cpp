@@ -9,23 +9,34 @@
 namespace littoral::sph {
 namespace {
 
+/// What the neighbours of a particle make up: B, and their crowding sum_j V_j grad W_ij.
 template <int D>
-SymmetricMatrix<D> renormalisation(const Particles<D>& particles, const Kernel<D>& kernel, std::size_t i,
-                                   const std::int32_t* list, std::size_t count) {
+struct Support {
+  SymmetricMatrix<D> B;
+  std::array<double, D> crowding;
+};
+
+template <int D>
+Support<D> support(const Particles<D>& particles, const Kernel<D>& kernel, std::size_t i,
+                   const std::int32_t* list, std::size_t count) {
   using Vector = Lanes<double>;
   constexpr std::size_t k_entries = D * (D + 1) / 2;
-  Vector B[k_entries] = {};
+  Vector B[k_entries] = {}, crowding[D] = {};
   for_each_group<double>(list, count, i, [&](const std::int32_t* j) {
     Vector x[D];
     const Vector r = distances(particles, i, j, x);
     const Vector q = largest(1.0 - r * kernel.inv_R, Vector{});
     const Vector f = gather(particles.V.data(), j) * (q * q * q);
     std::size_t next = 0;
-    for (std::size_t a = 0; a < D; ++a)
-      for (std::size_t b = a; b < D; ++b) B[next++] += f * x[a] * x[b];
+    for (std::size_t a = 0; a < D; ++a) {
+      const Vector fx = f * x[a];
+      crowding[a] += fx;
+      for (std::size_t b = a; b < D; ++b) B[next++] += fx * x[b];
+    }
   });
-  SymmetricMatrix<D> total;
-  for (std::size_t a = 0; a < k_entries; ++a) total.a[a] = -kernel.slope * sum(B[a]);
+  Support<D> total;
+  for (std::size_t a = 0; a < k_entries; ++a) total.B.a[a] = -kernel.slope * sum(B[a]);
+  for (std::size_t d = 0; d < D; ++d) total.crowding[d] = -kernel.slope * sum(crowding[d]);
   return total;
 }
 
@@ -102,17 +113,17 @@ bool something_above(const Particles<D>& particles, double R, const std::array<d
 
 template <int D>
 void SurfaceDetection<D>::detect(Particles<D>& particles, const NeighborList<D>& neighbors,
-                                 const Ghosts<D>& ghosts, const WallSupport<D>* walls) {
+                                 const Ghosts<D>& ghosts, const WallSupport<D>* walls, bool with_crowding) {
   const Kernel<D> kernel(neighbors.kernel_radius());
   lambda_.resize(particles.size());
-  B_.resize(particles.n_owned);
   const auto n = static_cast<std::ptrdiff_t>(particles.n_owned);
   const auto* start = neighbors.start();
 #pragma omp parallel for schedule(static)
   for (std::ptrdiff_t row = 0; row < n; ++row) {
     const auto i = static_cast<std::size_t>(row);
-    B_[i] = renormalisation(particles, kernel, i, neighbors.list() + start[i], start[i + 1] - start[i]);
-    lambda_[i] = (walls ? B_[i] + walls->renormalisation(i) : B_[i]).smallest_eigenvalue();
+    const auto own = support(particles, kernel, i, neighbors.list() + start[i], start[i + 1] - start[i]);
+    lambda_[i] = (walls ? own.B + walls->renormalisation(i) : own.B).smallest_eigenvalue();
+    for (std::size_t d = 0; d < D && with_crowding; ++d) particles.shift[d][i] = own.crowding[d];
   }
   ghosts.refresh_scalar(lambda_, particles.n_owned);
 
@@ -125,7 +136,9 @@ void SurfaceDetection<D>::detect(Particles<D>& particles, const NeighborList<D>&
     const auto* list = neighbors.list() + start[i];
     const std::size_t count = start[i + 1] - start[i];
     const auto crowded = walls ? walls->crowding(i) : std::array<double, D>{};
-    const auto normals = outward_normals<D>(particles, kernel, lambda_, B_[i], crowded, i, list, count);
+    // B once more: few come here, and kept it would be a tenth of all the memory
+    const auto B = support(particles, kernel, i, list, count).B;
+    const auto normals = outward_normals<D>(particles, kernel, lambda_, B, crowded, i, list, count);
     const auto is_open = [&](const std::array<double, D>& normal) {
       return dot<D>(normal, normal) > 0.0 &&
              !something_above<D>(particles, kernel.R, normal, i, list, count) &&
@@ -145,14 +158,15 @@ template <int D>
 void SurfaceDetection<D>::mark_near(Particles<D>& particles, const NeighborList<D>& neighbors,
                                     const Ghosts<D>& ghosts) {
   const double R = neighbors.kernel_radius();
-  on_surface_.resize(particles.size());
-  for (auto& column : normal_) column.resize(particles.size());
+  std::vector<double> on_surface(particles.size());  // 1 or 0
+  std::array<std::vector<double>, D> normal;
+  for (auto& column : normal) column.resize(particles.size());
   for (std::size_t i = 0; i < particles.n_owned; ++i) {
-    on_surface_[i] = particles.surface[i] == SurfaceFlag::surface ? 1.0 : 0.0;
-    for (std::size_t d = 0; d < D; ++d) normal_[d][i] = particles.normal[d][i];
+    on_surface[i] = particles.surface[i] == SurfaceFlag::surface ? 1.0 : 0.0;
+    for (std::size_t d = 0; d < D; ++d) normal[d][i] = particles.normal[d][i];
   }
-  ghosts.refresh_scalar(on_surface_, particles.n_owned);
-  ghosts.refresh_vector(normal_, particles.n_owned);
+  ghosts.refresh_scalar(on_surface, particles.n_owned);
+  ghosts.refresh_vector(normal, particles.n_owned);
 
   distance_.assign(particles.n_owned, 1.0);
   const auto n = static_cast<std::ptrdiff_t>(particles.n_owned);
@@ -167,7 +181,7 @@ void SurfaceDetection<D>::mark_near(Particles<D>& particles, const NeighborList<
     std::size_t closest = particles.size();
     for (std::size_t k = neighbors.start()[i]; k < neighbors.start()[i + 1]; ++k) {
       const auto j = static_cast<std::size_t>(neighbors.list()[k]);
-      if (on_surface_[j] == 0.0) continue;
+      if (on_surface[j] == 0.0) continue;
       const auto x = separation(particles, i, j);
       const double r2 = dot<D>(x, x);
       if (r2 < least) least = r2, closest = j;
@@ -175,7 +189,7 @@ void SurfaceDetection<D>::mark_near(Particles<D>& particles, const NeighborList<
     particles.surface[i] = closest < particles.size() ? SurfaceFlag::near : SurfaceFlag::none;
     if (closest == particles.size()) continue;
     distance_[i] = std::sqrt(least) / R;
-    for (std::size_t d = 0; d < D; ++d) particles.normal[d][i] = normal_[d][closest];
+    for (std::size_t d = 0; d < D; ++d) particles.normal[d][i] = normal[d][closest];
   }
 }
 

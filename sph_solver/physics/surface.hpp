@@ -22,10 +22,10 @@ class SurfaceDetection {
   static constexpr double k_interior_above = 0.75;
 
   /// out: particles.surface (surface or none) and the unit normal, out of the water, of each surface
-  /// particle.
+  /// particle; on request particles.shift: sum_j V_j grad W_ij, which Shifting wants as well.
   /// walls: null where the scene has no bodies.
   void detect(Particles<D>& particles, const NeighborList<D>& neighbors, const Ghosts<D>& ghosts,
-              const WallSupport<D>* walls = nullptr);
+              const WallSupport<D>* walls = nullptr, bool with_crowding = false);
   /// After the flags have perhaps been corrected: marks particles within the kernel radius of a surface
   /// particle as near, gives them the normal of the closest one, and finds their distance.
   void mark_near(Particles<D>& particles, const NeighborList<D>& neighbors, const Ghosts<D>& ghosts);
@@ -35,10 +35,7 @@ class SurfaceDetection {
   const std::vector<double>& eigenvalue() const { return lambda_; }
 
  private:
-  std::vector<SymmetricMatrix<D>> B_;          // (n_owned)
-  std::vector<double> lambda_;                 // (n_owned + n_ghost)
-  std::vector<double> on_surface_;             // 1 or 0 (n_owned + n_ghost)
-  std::array<std::vector<double>, D> normal_;  // (n_owned + n_ghost)
+  std::vector<double> lambda_;  // (n_owned + n_ghost)
   std::vector<double> distance_;
 };
 

@@ -5,8 +5,6 @@
 namespace littoral::sph {
 namespace {
 
-constexpr double k_least_distance = 1e-9;  // of R; keeps 1/r^2 finite for coincident particles
-
 template <int D>
 std::array<double, D> sum_pairs(const Particles<D>& particles, const Kernel<D>& kernel, std::size_t i,
                                 const std::int32_t* list, std::size_t count) {

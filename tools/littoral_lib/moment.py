@@ -1,5 +1,6 @@
 """One moment of a run: particles and cells with velocity and pressure, whatever the programs call them."""
 
+import copy
 import pathlib
 
 import numpy as np
@@ -33,11 +34,12 @@ class Part:
             self.u = None
 
     def pick(self, mask):
+        picked = copy.copy(self)
         for name in ("x", "u", "p", "status", "phi"):
             values = getattr(self, name)
             if values is not None:
-                setattr(self, name, values[mask])
-        return self
+                setattr(picked, name, values[mask])
+        return picked
 
     @property
     def speed(self):
@@ -47,39 +49,41 @@ class Part:
         """Without the cells that a free surface leaves in the air, whose values mean nothing."""
         return self if self.phi is None else self.pick(self.phi < 0)
 
-
     def sheets(self):
         """The blocks' middle sheets along y: (x, z of the nodes, speed of the cells, blanked ones and air masked)."""
+        for piece, sheet in self._middles():
+            name = next(n for n in VELOCITY if n in piece.fields)
+            speed = _without_blanked(piece, sheet, np.linalg.norm(sheet(piece.field(name)), axis=-1))
+            if LEVEL_SET in piece.fields:
+                speed = np.ma.masked_where(sheet(piece.field(LEVEL_SET)) > 0, speed)
+            nk, nj, ni = piece.nodes
+            nodes = piece.coordinates().reshape(nk, nj, ni, 3)[:, (nj - 1) // 2]
+            yield nodes[..., 0], nodes[..., 2], speed
+
+    def surfaces(self):
+        """Of each block that has a level set: (x, z of the cells, phi) on its middle sheet; blanked cells masked."""
+        for piece, sheet in self._middles():
+            if LEVEL_SET not in piece.fields:
+                continue
+            centres = sheet(piece.centres())
+            yield centres[..., 0], centres[..., 2], _without_blanked(piece, sheet, sheet(piece.field(LEVEL_SET)))
+
+    def _middles(self):
+        """(block, its cells' values -> those of its middle sheet along y) for every structured block."""
         for piece in self.snapshot.pieces:
             if not piece.structured:
                 continue
             nk, nj, ni = piece.nodes
-            nodes = piece.coordinates().reshape(nk, nj, ni, 3)
-            name = next(n for n in VELOCITY if n in piece.fields)
-            u = piece.field(name).reshape(nk - 1, max(nj - 1, 1), ni - 1, 3)
-            j = (nj - 1) // 2
-            speed = np.ma.array(np.linalg.norm(u[:, min(j, u.shape[1] - 1)], axis=-1))
-            for status in (piece.field(n) for n in KIND if n in piece.fields):
-                blanked = status.reshape(u.shape[:3])[:, min(j, u.shape[1] - 1)] == BLANKED
-                speed = np.ma.masked_where(blanked, speed)
-            if LEVEL_SET in piece.fields:
-                phi = piece.field(LEVEL_SET).reshape(u.shape[:3])[:, min(j, u.shape[1] - 1)]
-                speed = np.ma.masked_where(phi > 0, speed)
-            yield nodes[:, j, :, 0], nodes[:, j, :, 2], speed
-
-    def surfaces(self):
-        """Of each block that has a level set: (x, z of the cells, phi) on its middle sheet; blanked cells masked."""
-        for piece in self.snapshot.pieces:
-            if not piece.structured or LEVEL_SET not in piece.fields:
-                continue
-            nk, nj, ni = piece.nodes
             shape = (nk - 1, max(nj - 1, 1), ni - 1)
             j = min((nj - 1) // 2, shape[1] - 1)
-            centres = piece.centres().reshape(*shape, 3)[:, j]
-            phi = np.ma.array(piece.field(LEVEL_SET).reshape(shape)[:, j])
-            for status in (piece.field(n) for n in KIND if n in piece.fields):
-                phi = np.ma.masked_where(status.reshape(shape)[:, j] == BLANKED, phi)
-            yield centres[..., 0], centres[..., 2], phi
+            yield piece, lambda values, shape=shape, j=j: values.reshape(*shape, *values.shape[1:])[:, j]
+
+
+def _without_blanked(piece, sheet, values):
+    masked = np.ma.array(values)
+    for status in (piece.field(n) for n in KIND if n in piece.fields):
+        masked = np.ma.masked_where(sheet(status) == BLANKED, masked)
+    return masked
 
 
 class Moments:

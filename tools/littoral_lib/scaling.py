@@ -11,7 +11,7 @@ from .errors import UserError
 from .scene import ROOT
 
 BLOCKS = {"sph": 4, "fv": 2}  # of the strong table
-REACH = 3.0     # of the halo in spacings: R = 2.7 dx and the lists' skin
+REACH = 3.0     # of the halo in spacings: R = 2.7 dx and a skin of .3 dx (lists choose it, up to .4)
 # A cluster to be assumed: a message's latency [s], a rank's share of the network [B/s], a sum over all ranks [s] per
 # doubling of their number.
 LATENCY, BANDWIDTH, HOP = 2e-6, 3e9, 2e-6

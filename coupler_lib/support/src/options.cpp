@@ -27,8 +27,11 @@ ParsedOptions parse_options(int argc, const char* const* argv, const std::string
   app.add_flag("--print-config", o.print_config, "print scene and configuration with all defaults resolved");
   app.add_flag("--help-config", o.help_config, "print every key with type, unit, range and default");
   app.add_option("--restart", o.restart, "checkpoint to continue from");
-  auto* record = app.add_option("--record", o.record, "record all that the partner says in this file");
-  app.add_option("--replay", o.replay, "let this record speak in the partner's place")->excludes(record);
+  auto* record =
+      app.add_option("--record", o.record,
+                     "record all that the partner says in this file; on several ranks each in FILE.rankKofN");
+  app.add_option("--replay", o.replay, "let this record speak in the partner's place, on as many ranks")
+      ->excludes(record);
   for (const OwnOption& option : own) app.add_option(option.name, *option.value, option.doc);
   app.get_formatter()->column_width(28);
 

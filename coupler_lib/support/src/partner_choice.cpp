@@ -21,12 +21,18 @@ Words words(coupler::Role role) {
   return {"fv_solver", "sph_solver", "fv.yaml"};
 }
 
+/// Each rank hears something else, and has a record of its own.
+std::string of_rank(const std::string& path, const coupler::Job& job) {
+  if (job.size() == 1) return path;
+  return path + ".rank" + std::to_string(job.rank()) + "of" + std::to_string(job.size());
+}
+
 /// Records what `partner` says, where that is wanted.
 template <class Partner>
 std::unique_ptr<Partner> recorded(std::unique_ptr<Partner> partner, const ProgramOptions& options,
-                                  const Scene& scene) {
+                                  const Scene& scene, const coupler::Job& job) {
   if (options.record.empty()) return partner;
-  return coupler::recording(std::move(partner), options.record, scene.restart_digest);
+  return coupler::recording(std::move(partner), of_rank(options.record, job), scene.restart_digest);
 }
 
 }  // namespace
@@ -85,15 +91,15 @@ std::unique_ptr<coupler::FvPartner> choose_fv_partner(const coupler::Job& job, c
   switch (decide_partner(coupler::Role::sph, job.has_partner(), scene, config, options)) {
     case PartnerPlayer::program:
       job.compare(scene.contract(), plan.deadline);
-      return recorded(job.fv_partner(plan), options, scene);
+      return recorded(job.fv_partner(plan), options, scene, job);
     case PartnerPlayer::formula:
       return recorded(
           coupler::analytic_fv_partner(analytic_flow(scene, config.analytic), plan,
                                        config.analytic.spacing > 0.0 ? config.analytic.spacing : spacing,
                                        scene.dimension, job.comm()),
-          options, scene);
+          options, scene, job);
     case PartnerPlayer::record:
-      return coupler::replayed_fv_partner(options.replay, scene.restart_digest);
+      return coupler::replayed_fv_partner(of_rank(options.replay, job), scene.restart_digest);
     case PartnerPlayer::nobody:
       break;
   }
@@ -107,12 +113,12 @@ std::unique_ptr<coupler::SphPartner> choose_sph_partner(const coupler::Job& job,
   switch (decide_partner(coupler::Role::fv, job.has_partner(), scene, config, options)) {
     case PartnerPlayer::program:
       job.compare(scene.contract(), plan.deadline);
-      return recorded(job.sph_partner(plan), options, scene);
+      return recorded(job.sph_partner(plan), options, scene, job);
     case PartnerPlayer::formula:
       return recorded(coupler::analytic_sph_partner(analytic_flow(scene, config.analytic), plan, job.comm()),
-                      options, scene);
+                      options, scene, job);
     case PartnerPlayer::record:
-      return coupler::replayed_sph_partner(options.replay, scene.restart_digest);
+      return coupler::replayed_sph_partner(of_rank(options.replay, job), scene.restart_digest);
     case PartnerPlayer::nobody:
       break;
   }

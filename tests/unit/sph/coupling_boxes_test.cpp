@@ -31,7 +31,7 @@ test::FormulaExterior stream(const coupler::Vec3& u) {
 }
 
 TEST(SeveralBoxesTest, OnlyTheBoundaryOfTheUnionHasElements) {
-  const FaceElements<2> faces(bent(), 0.1);
+  const FaceElements<2> faces(bent(), 0.1, FaceRows::fixed);
   double area[2][2] = {};
   for (std::size_t e = 0; e < faces.size(); ++e) area[faces[e].axis][faces[e].side] += faces[e].area;
   EXPECT_NEAR(area[0][0], 1.5, 1e-12);
@@ -44,7 +44,7 @@ TEST(SeveralBoxesTest, AClosedSurfaceInSpaceToo) {
   // a box on top of another's side, set off by what is no multiple of the spacing
   const Layers<3> layers({open_box<3>({0, 0, 0}, {1, 1, 1}), open_box<3>({1, 0.13, 0.27}, {2, 0.71, 1.33})},
                          0.1, 0.1);
-  const FaceElements<3> faces(layers, 0.09);
+  const FaceElements<3> faces(layers, 0.09, FaceRows::fixed);
   for (std::size_t d = 0; d < 3; ++d) {
     double sum = 0.0;
     for (std::size_t e = 0; e < faces.size(); ++e)
@@ -54,7 +54,7 @@ TEST(SeveralBoxesTest, AClosedSurfaceInSpaceToo) {
 }
 
 TEST(SeveralBoxesTest, AStreamBringsNoNetMass) {
-  FaceElements<2> faces(bent(), 0.1);
+  FaceElements<2> faces(bent(), 0.1, FaceRows::fixed);
   faces.integrate(stream({1.0, 0.0, 0.7}), {1000.0, 10.0, 0.0}, 0.0, 1.0);
   EXPECT_NEAR(faces.flux(), 0.0, 1e-9);
 }
@@ -69,7 +69,7 @@ TEST(SeveralBoxesTest, FaceBetweenTouchingBoxesIsNoBoundary) {
 }
 
 TEST(SeveralBoxesTest, AParticleLeavesThroughTheUnionsBoundary) {
-  const FaceElements<2> faces(bent(), 0.1);
+  const FaceElements<2> faces(bent(), 0.1, FaceRows::fixed);
   const auto through = [&](const Point<2>& x) { return faces.crossed(x); };
   EXPECT_EQ(through({1.2, 0.2}), faces.size()) << "from one box into the other";
   EXPECT_EQ(through({0.9, 0.64}), faces.size());

@@ -77,7 +77,8 @@ TEST(FaceColumnsTest, MassOfARowThatEndsStaysInTheColumn) {
 }
 
 TEST(FaceColumnsTest, TilesStandWhereWaterDoesNotLieUnderAir) {
-  FaceElements<2> fixed(open_to_the_left<2>(), k_dx), faces(open_to_the_left<2>(), k_dx, FaceRows::level);
+  FaceElements<2> fixed(open_to_the_left<2>(), k_dx, FaceRows::fixed),
+      faces(open_to_the_left<2>(), k_dx, FaceRows::level);
   const auto same_as_tiles = [&](const Exterior& fv, const char* what) {
     faces.integrate(fv, k_eos, 0.0, 0.1);
     fixed.integrate(fv, k_eos, 0.0, 0.1);

@@ -12,7 +12,7 @@ const LinearEos k_eos{1000.0, 10.0, 0.0};
 
 TEST(FaceElementsTest, TileTheOuterFaces) {
   const auto layers = test::unit_box<3>(test::all_open<3>(), 0.25, 0.25);
-  const FaceElements<3> faces(layers, 0.26);
+  const FaceElements<3> faces(layers, 0.26, FaceRows::fixed);
   double area = 0.0;
   for (std::size_t e = 0; e < faces.size(); ++e) area += faces[e].area;
   EXPECT_NEAR(area, 6 * 2.0 * 2.0, 1e-12);
@@ -21,7 +21,7 @@ TEST(FaceElementsTest, TileTheOuterFaces) {
 
 TEST(FaceElementsTest, IntegrateTheMassFluxWithTheLocalDensity) {  // (18)
   const auto layers = test::unit_box<2>(test::all_open<2>(), 0.25, 0.25);
-  FaceElements<2> faces(layers, 0.5);
+  FaceElements<2> faces(layers, 0.5, FaceRows::fixed);
   // u_x = 3 t: the mean over [1, 2] is 4.5; rho(p) = 1000 + 500/100
   const test::FormulaExterior fv([](const coupler::Vec3&, double t) {
     return coupler::DonorState{500.0, {3.0 * t, 0.0, 0.0}, 0.0};
@@ -36,7 +36,7 @@ TEST(FaceElementsTest, IntegrateTheMassFluxWithTheLocalDensity) {  // (18)
 
 TEST(FaceElementsTest, CountOnlyTheWetPart) {  // (19)
   const auto layers = test::unit_box<2>({{{true, false}, {false, false}}}, 0.25, 0.25);
-  FaceElements<2> faces(layers, 0.25);  // four elements up the face x = -0.5
+  FaceElements<2> faces(layers, 0.25, FaceRows::fixed);  // four elements up the face x = -0.5
   const test::FormulaExterior fv(
       [](const coupler::Vec3& x, double) {
         return coupler::DonorState{0.0, {1.0, 0.0, 0.0}, x[2] - 0.55};
@@ -52,7 +52,7 @@ TEST(FaceElementsTest, CountOnlyTheWetPart) {  // (19)
 
 TEST(FaceElementsTest, WetPartIsRightWhereTheGridKnowsOneEndOnly) {  // (19)
   const auto layers = test::unit_box<2>({{{true, false}, {false, false}}}, 0.25, 0.25);
-  FaceElements<2> faces(layers, 0.25);
+  FaceElements<2> faces(layers, 0.25, FaceRows::fixed);
   const test::FormulaExterior fv(
       [](const coupler::Vec3& x, double) -> std::optional<coupler::DonorState> {
         if (x[2] > 0.7) return std::nullopt;  // FV has no state in the air
@@ -65,7 +65,7 @@ TEST(FaceElementsTest, WetPartIsRightWhereTheGridKnowsOneEndOnly) {  // (19)
 
 TEST(FaceElementsTest, CutElementInSpaceCountsItsWetShare) {  // (19)
   const auto layers = test::unit_box<3>({{{true, false}, {false, false}, {false, false}}}, 0.25, 0.25);
-  FaceElements<3> faces(layers, 1.0);
+  FaceElements<3> faces(layers, 1.0, FaceRows::fixed);
   const test::FormulaExterior fv(
       [](const coupler::Vec3& x, double) {
         return coupler::DonorState{0.0, {1.0, 0.0, 0.0}, (x[1] + x[2] - 1.0) / std::sqrt(2.0)};
@@ -77,7 +77,7 @@ TEST(FaceElementsTest, CutElementInSpaceCountsItsWetShare) {  // (19)
 
 TEST(FaceElementsTest, KnowWhereAParticleLeft) {
   const auto layers = test::unit_box<2>(test::all_open<2>(), 0.25, 0.25);
-  const FaceElements<2> faces(layers, 0.5);
+  const FaceElements<2> faces(layers, 0.5, FaceRows::fixed);
   EXPECT_EQ(faces.crossed({0.5, 0.5}), faces.size());
   const std::size_t e = faces.crossed({1.51, 0.6});
   EXPECT_EQ(faces[e].axis, 0u);
@@ -90,7 +90,7 @@ TEST(FaceElementsTest, KnowWhereAParticleLeft) {
 
 TEST(FaceElementsTest, RestoreToTheBit) {
   const auto layers = test::unit_box<2>(test::all_open<2>(), 0.25, 0.25);
-  FaceElements<2> faces(layers, 0.5), other(layers, 0.5);
+  FaceElements<2> faces(layers, 0.5, FaceRows::fixed), other(layers, 0.5, FaceRows::fixed);
   const test::FormulaExterior fv([](const coupler::Vec3& x, double) {
     return coupler::DonorState{0.0, {0.1 * x[0], 0.0, 0.3}, 0.0};
   });

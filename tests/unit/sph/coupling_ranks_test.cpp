@@ -18,14 +18,14 @@ Layers<2> strip(bool periodic) {
 }
 
 TEST(InjectionRoundsTest, OneRankNeedsOneRound) {
-  const FaceElements<2> elements(strip(false), 1.0);
+  const FaceElements<2> elements(strip(false), 1.0, FaceRows::fixed);
   ASSERT_EQ(elements.size(), 10u);
   const std::vector<std::size_t> due = {0, 1, 2, 9};
   EXPECT_EQ(injection_rounds(elements, due, {0, 0, 0, 0}, 3.0), (std::vector<std::size_t>{0, 0, 0, 0}));
 }
 
 TEST(InjectionRoundsTest, AnElementWaitsForNearOnesBeforeItOfAnotherRank) {
-  const FaceElements<2> elements(strip(false), 1.0);
+  const FaceElements<2> elements(strip(false), 1.0, FaceRows::fixed);
   const std::vector<std::size_t> due = {3, 4, 5, 9};
   // 4 of rank 1 after 3 of rank 0; 5 of rank 1 as 4, its own; 9 is far away
   EXPECT_EQ(injection_rounds(elements, due, {0, 1, 1, 0}, 3.0), (std::vector<std::size_t>{0, 1, 1, 0}));
@@ -35,9 +35,9 @@ TEST(InjectionRoundsTest, AnElementWaitsForNearOnesBeforeItOfAnotherRank) {
 
 TEST(InjectionRoundsTest, NearIsMeantAcrossAPeriodicSide) {
   const std::vector<std::size_t> due = {0, 9};
-  EXPECT_EQ(injection_rounds(FaceElements<2>(strip(true), 1.0), due, {0, 1}, 3.0),
+  EXPECT_EQ(injection_rounds(FaceElements<2>(strip(true), 1.0, FaceRows::fixed), due, {0, 1}, 3.0),
             (std::vector<std::size_t>{0, 1}));
-  EXPECT_EQ(injection_rounds(FaceElements<2>(strip(false), 1.0), due, {0, 1}, 3.0),
+  EXPECT_EQ(injection_rounds(FaceElements<2>(strip(false), 1.0, FaceRows::fixed), due, {0, 1}, 3.0),
             (std::vector<std::size_t>{0, 0}));
 }
 

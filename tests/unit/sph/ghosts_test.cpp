@@ -57,17 +57,17 @@ TEST(GhostsTest, MirrorImagesTurnNormalComponentsOfVectorsAndGradients) {
   EXPECT_EQ(particles.x[0][1], -0.5);
   EXPECT_EQ(particles.u[0][1], -2.0);
   EXPECT_EQ(particles.u[1][1], 3.0);
-  Gradients<2> gradients;
-  gradients.resize(2);
-  gradients.p[0][0] = 5.0;
-  gradients.u[0][0][0] = 6.0;
-  gradients.u[0][1][0] = 7.0;
-  gradients.u[1][0][0] = 8.0;
-  ghosts.refresh(gradients, 1);
-  EXPECT_EQ(gradients.p[0][1], -5.0);
-  EXPECT_EQ(gradients.u[0][0][1], 6.0);
-  EXPECT_EQ(gradients.u[0][1][1], -7.0);
-  EXPECT_EQ(gradients.u[1][0][1], -8.0);
+  using Rows = PairRows<2, double>;
+  Rows rows;
+  rows.pack_states(particles, Kernel<2>(1.0), 0.0);
+  rows.set_gradients(0, {5.0, 4.0}, {{{6.0, 7.0}, {8.0, 9.0}}});
+  ghosts.refresh(rows);
+  const double* image = rows.face(1).q;
+  EXPECT_EQ(image[Rows::k_grad_p], -5.0);
+  EXPECT_EQ(image[Rows::k_grad_p + 1], 4.0);
+  EXPECT_EQ(image[Rows::k_strain], 6.0);
+  EXPECT_EQ(image[Rows::k_strain + 1], -15.0);
+  EXPECT_EQ(image[Rows::k_strain + 2], 9.0);
 }
 
 TEST(GhostsTest, BringBackWrapsMirrorsAndNamesTheLost) {
