@@ -12,7 +12,6 @@
 #include "grid/loops.hpp"
 #include "grid/space.hpp"
 #include "littoral/error.hpp"
-#include "littoral/support/run_plan.hpp"
 #include "overset/components.hpp"
 
 namespace littoral::fv {
@@ -76,15 +75,6 @@ void check_under_water(const Block<D>& block, const support::Formula& surface) {
 }
 
 }  // namespace
-
-void check_scene(const support::Scene& scene) {
-  if (support::level_set_crosses(scene))
-    throw ConfigError(
-        "the free surface passes through the SPH region's open faces, or the region overlaps the grid, so "
-        "that "
-        "the level set would have to cross; fv_solver computes water only: let the region reach from side to "
-        "side of the domain, as under a wave, with coupling.kind: imposed");
-}
 
 /// Between components that meet, one must take values from the other.
 template <int D>

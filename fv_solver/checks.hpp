@@ -8,9 +8,6 @@
 
 namespace littoral::fv {
 
-/// throws ConfigError where the scene asks for what this solver does not compute
-void check_scene(const support::Scene& scene);
-
 /// Of all blocks. throws ConfigError where two meet, but nothing passes from one to the other
 template <int D>
 void check_apart(const std::vector<Block<D>>& blocks);

@@ -106,7 +106,6 @@ int run(coupler::Job& job, int argc, char** argv) {
     return 0;
   }
   need_step(options, config, scene);
-  check_scene(scene);
   support::planned_partner(coupler::Role::fv, scene, config.partner, options);
   if (options.check) {
     std::vector<std::string> notes;

@@ -17,6 +17,7 @@
 #include "grid/space.hpp"
 #include "implicit/multigrid_solver.hpp"
 #include "littoral/error.hpp"
+#include "littoral/support/run_plan.hpp"
 #include "parallel/cut.hpp"
 #include "parallel/load_report.hpp"
 
@@ -227,9 +228,15 @@ Stepper<D> make_stepper(const FvConfig& config, const support::Scene& scene, std
   Stepper<D> stepper(std::move(own.blocks), std::move(own.exchange), equations,
                      step_solver_of<D>(config, scene), tolerance);
   stepper.initialise(initial_flow<D>(scene), 0.0);
-  if (scene.has_free_surface() && !scene.has_region()) {
+  const bool crosses = support::level_set_crosses(scene);
+  if (scene.has_free_surface() && (!scene.has_region() || crosses)) {
     const Prescribed surface = prescribed(*scene.initial.surface, "initial.surface");
-    if (ranks.any(meets_air<D>(stepper.blocks(), surface))) stepper.set_surface(surface, config.level_set);
+    const bool air = ranks.any(meets_air<D>(stepper.blocks(), surface));
+    if (air) stepper.set_surface(surface, config.level_set);
+    if (!air && crosses)
+      throw ConfigError(
+          "the free surface passes through the SPH region's open faces, or the region overlaps the grid, but "
+          "the grid ends under water: let it reach into the air");
   }
   const auto& source = config.source;
   if (source.mass || source.u || source.v || source.w) {

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "coupling/carve.hpp"
+#include "coupling/force_cells.hpp"
 #include "grid/space.hpp"
 
 namespace littoral::fv {
@@ -52,14 +53,14 @@ StepReport Coupled<D>::advance(const coupler::Window& window, Stepper<D>& steppe
   warn_of_long_windows(window.dt());
   warn_of_many_substeps(window);
   const Schedule schedule = scene_.coupling.schedule.schedule;
-  const double flux_before = interface_->mass_flux(stepper.blocks(), stepper.equations(), stepper.state());
+  const double flux_before = interface_->mass_flux(stepper);
   StepReport total;
   Values values;
 
-  offer_->put_state(stepper.state(), donors_);
+  offer_->put_state(stepper, donors_);
   if (schedule == Schedule::predicted) {
     step(window, cells_->extrapolated(window.dt()), stepper, total, Solve::rough);
-    offer_->put_state(stepper.state(), result_);
+    offer_->put_state(stepper, result_);
     offer_->put_secant(result_, window.dt(), donors_);
     stepper.restore();
   } else {
@@ -75,7 +76,7 @@ StepReport Coupled<D>::advance(const coupler::Window& window, Stepper<D>& steppe
     step(window, values, stepper, total);
   }
   for (int pass = 1; pass < scene_.coupling.schedule.sph_passes(); ++pass) {
-    offer_->put_state(stepper.state(), result_);
+    offer_->put_state(stepper, result_);
     offer_->put_secant(result_, window.dt(), donors_);
     send(window);
     values = receive(window, stepper);
@@ -84,7 +85,7 @@ StepReport Coupled<D>::advance(const coupler::Window& window, Stepper<D>& steppe
   }
   cells_->accept(std::move(values), window.dt());
 
-  const double flux_after = interface_->mass_flux(stepper.blocks(), stepper.equations(), stepper.state());
+  const double flux_after = interface_->mass_flux(stepper);
   mass_flux_ += 0.5 * window.dt() * (flux_before + flux_after);
   coupler::Ledger mine;
   mine.fv_mass_flux = mass_flux_;
@@ -115,30 +116,7 @@ void Coupled<D>::step(const coupler::Window& window, const Values& values, Stepp
   if (!forced_) {
     report = stepper.advance(window.dt(), values, again);
   } else {
-    const double u_ref = scene_.velocity_scale();
-    const Equations<D>& equations = stepper.equations();
-    for (std::size_t b = 0; b < values.size(); ++b) {
-      const Block<D>& block = stepper.blocks()[b];
-      Forcing<D>& forcing = stepper.forcing()[b];
-      if (values[b].cell.empty()) continue;
-      forcing.rate.assign(block.extent.size, 0.0);
-      forcing.target.resize(block.extent.size);
-      forcing.psi = equations.fluid.inverse_c2 > 0.0 ? equations.fluid.inverse_c2
-                                                     : 1.0 / (equations.speeds.c0 * equations.speeds.c0);
-      for (std::size_t m = 0; m < values[b].cell.size(); ++m) {
-        const std::size_t c = values[b].cell[m];
-        double delta = window.dt();  // (22)
-        for (std::size_t d = 0; d < D; ++d) {
-          double s2 = 0.0;
-          for (std::size_t k = 0; k < D; ++k) s2 += block.area[d][k][c] * block.area[d][k][c];
-          delta = std::min(delta, block.volume[c] / std::sqrt(s2) / u_ref);
-        }
-        // nothing to drive it to where the particles gave no value
-        forcing.rate[c] = cells_->known(b)[m] ? forcing_constant_ / delta : 0.0;
-        forcing.target.p[c] = values[b].p[m];
-        for (std::size_t k = 0; k < D; ++k) forcing.target.u[k][c] = values[b].u[k][m];
-      }
-    }
+    force_cells(*cells_, values, forcing_constant_, scene_.velocity_scale(), window.dt(), stepper);
     report = stepper.advance(window.dt(), {}, again);
   }
   stepper.tolerance().drop = drop;

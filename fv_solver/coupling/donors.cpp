@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "coupling/surface_donors.hpp"
 #include "grid/donor_patch.hpp"
 #include "grid/loops.hpp"
 #include "grid/space.hpp"
@@ -111,22 +112,37 @@ DonorOffer<D>::DonorOffer(const std::vector<Block<D>>& blocks, const Exchange<D>
 }
 
 template <int D>
-void DonorOffer<D>::put_state(const std::vector<State<D>>& state, coupler::DonorValues& values) const {
-  values.resize(geometry_.size(), false);
+void DonorOffer<D>::put_state(const Stepper<D>& stepper, coupler::DonorValues& values) const {
+  const FreeSurface<D>* surface = stepper.surface();
+  values.resize(geometry_.size(), surface != nullptr);
+  std::vector<State<D>> continued;
+  if (surface != nullptr) continued = continue_into_air(stepper);
+  const std::vector<State<D>>& state = surface != nullptr ? continued : stepper.state();
   std::size_t first = 0;
   for (std::size_t b = 0; b < cells_.size(); ++b) {
     put<D>(state[b], cells_[b], first, values.p, {&values.u, &values.v, &values.w});
+    for (std::size_t i = 0; i < cells_[b].size() && surface != nullptr; ++i)
+      values.phi[first + i] = surface->phi()[b][cells_[b][i]];
     first += cells_[b].size();
   }
 }
 
 template <int D>
 void DonorOffer<D>::put_rates(const Stepper<D>& stepper, coupler::DonorValues& values) const {
-  values.resize(geometry_.size(), false);
-  const std::vector<State<D>> rate = rates(stepper);
+  const FreeSurface<D>* surface = stepper.surface();
+  values.resize(geometry_.size(), surface != nullptr);
+  std::vector<State<D>> rate = rates(stepper);
   std::size_t first = 0;
+  const double over = stepper.steps() > 0 ? 1.0 / stepper.last_dt() : 0.0;
   for (std::size_t b = 0; b < cells_.size(); ++b) {
     put<D>(rate[b], cells_[b], first, values.dp_dt, {&values.du_dt, &values.dv_dt, &values.dw_dt});
+    for (std::size_t i = 0; i < cells_[b].size() && surface != nullptr; ++i) {
+      const std::size_t c = cells_[b][i];
+      const double phi = surface->phi()[b][c], p0 = stepper.equations().fluid.reference_pressure;
+      values.dphi_dt[first + i] = over * (phi - surface->phi_before()[b][c]);
+      if (phi > 0.0)  // p - p0 is in proportion to phi there
+        values.dp_dt[first + i] = (values.p[first + i] - p0) / phi * values.dphi_dt[first + i];
+    }
     first += cells_[b].size();
   }
 }
@@ -164,6 +180,7 @@ void DonorOffer<D>::put_secant(const coupler::DonorValues& end, double dt, coupl
   slope(values.u, end.u, values.du_dt);
   slope(values.v, end.v, values.dv_dt);
   slope(values.w, end.w, values.dw_dt);
+  slope(values.phi, end.phi, values.dphi_dt);
 }
 
 template <int D>

@@ -19,9 +19,10 @@ class DonorOffer {
   coupler::DonorGeometry& geometry() { return geometry_; }
   const coupler::DonorGeometry& geometry() const { return geometry_; }
 
-  /// p, u of `state` (ghosts current) into the value fields.
-  void put_state(const std::vector<State<D>>& state, coupler::DonorValues& values) const;
-  /// rates() of all blocks into the rate fields.
+  /// p, u of the stepper's state into the value fields; with a free surface also phi, and the air beside it
+  /// continues the water (continue_into_air).
+  void put_state(const Stepper<D>& stepper, coupler::DonorValues& values) const;
+  /// rates() of all blocks into the rate fields; of phi its last change. pre put_state
   void put_rates(const Stepper<D>& stepper, coupler::DonorValues& values) const;
   /// Rates that carry `values` to `end` (an offer's fields at t_end), linearly over dt.
   static void put_secant(const coupler::DonorValues& end, double dt, coupler::DonorValues& values);

@@ -39,12 +39,14 @@ InterfaceFlux<D>::InterfaceFlux(const std::vector<Block<D>>& blocks, const Excha
 }
 
 template <int D>
-double InterfaceFlux<D>::mass_flux(const std::vector<Block<D>>& blocks, const Equations<D>& equations,
-                                   const std::vector<State<D>>& state) const {
+double InterfaceFlux<D>::mass_flux(const Stepper<D>& stepper) const {
   double flux = 0.0;
+  std::vector<Field> water(stepper.blocks().size());
+  for (std::size_t b = 0; b < water.size() && stepper.surface() != nullptr && !faces_.empty(); ++b)
+    wet_shares<D>(stepper.blocks()[b], stepper.surface()->phi()[b], water[b]);
   for (const Face& f : faces_) {
-    const Block<D>& block = blocks[f.block];
-    const State<D>& q = state[f.block];
+    const Block<D>& block = stepper.blocks()[f.block];
+    const State<D>& q = stepper.state()[f.block];
     const std::ptrdiff_t s =
         f.step * block.extent.stride[f.direction];  // ghosts hold images and other blocks
     const auto at = [&](const Field& field) {
@@ -55,7 +57,11 @@ double InterfaceFlux<D>::mass_flux(const std::vector<Block<D>>& blocks, const Eq
     const auto face = static_cast<std::size_t>(f.step < 0 ? f.cell : f.cell + s);
     double flow = 0.0;
     for (std::size_t k = 0; k < D; ++k) flow += f.step * at(q.u[k]) * block.area[f.direction][k][face];
-    flux += equations.fluid.rho(at(q.p)) * flow;
+    double share = 1.0;
+    if (stepper.surface() != nullptr)
+      share = 0.5 * (water[f.block][static_cast<std::size_t>(f.cell)] +
+                     water[f.block][static_cast<std::size_t>(f.cell + s)]);
+    flux += share * stepper.equations().fluid.rho(at(q.p)) * flow;
   }
   return ranks_.sum(flux);
 }

@@ -15,11 +15,11 @@ class InterfaceFlux {
 
   /// Mass flux through all of them, of all ranks, into the SPH region: central, fourth order along the grid
   /// line, which is what the mean of both reconstructions is; the Riemann problem's dissipation is left out.
-  /// in    state with ghosts current
+  /// Where a free surface cuts the cells beside a face, the mean of their shares of water counts.
+  /// in    the stepper's state, ghosts current
   /// out   [kg/s] (per metre in 2-D)
   /// comm  collective
-  double mass_flux(const std::vector<Block<D>>& blocks, const Equations<D>& equations,
-                   const std::vector<State<D>>& state) const;
+  double mass_flux(const Stepper<D>& stepper) const;
 
  private:
   struct Face {

@@ -1,5 +1,6 @@
 #include "coupling/target_cells.hpp"
 
+#include <cmath>
 #include <cstdio>
 
 #include "coupling/donors.hpp"
@@ -10,11 +11,12 @@
 namespace littoral::fv {
 namespace {
 
-/// Calls f(field) for p and the velocity components, in a fixed order.
-template <int D, class Values, class F>
-void for_each_field(Values& values, F&& f) {
+/// Calls f(field) for p, the velocity components and, with a free surface, phi, in a fixed order.
+template <int D, class F>
+void for_each_field(Imposed<D>& values, bool with_phi, F&& f) {
   f(values.p);
   for (std::size_t k = 0; k < D; ++k) f(values.u[k]);
+  if (with_phi) f(values.phi);
 }
 
 template <int D>
@@ -35,7 +37,7 @@ std::string key(const char* what, std::size_t block, std::size_t field) {
 
 template <int D>
 TargetCells<D>::TargetCells(const Stepper<D>& stepper, CellStatus status)
-    : status_(status), layout_(stepper.exchange().layout()) {
+    : status_(status), with_phi_(stepper.surface() != nullptr), layout_(stepper.exchange().layout()) {
   now_.resize(stepper.blocks().size());
   for (std::size_t b = 0; b < stepper.blocks().size(); ++b) {
     const Block<D>& block = stepper.blocks()[b];
@@ -47,7 +49,8 @@ TargetCells<D>::TargetCells(const Stepper<D>& stepper, CellStatus status)
       targets_.x.push_back(x[0]);
       targets_.y.push_back(x[1]);
       targets_.z.push_back(x[2]);
-      targets_.wants.push_back(coupler::wants_state);
+      targets_.wants.push_back(
+          static_cast<std::uint8_t>(coupler::wants_state | (with_phi_ ? coupler::wants_phi : 0)));
     });
   }
   rate_ = before_ = now_;
@@ -56,7 +59,11 @@ TargetCells<D>::TargetCells(const Stepper<D>& stepper, CellStatus status)
     take(stepper.state()[b], now_[b]);
     take(stepper.state()[b], before_[b]);
     take(rate[b], rate_[b]);
-    known_.emplace_back(now_[b].cell.size(), std::uint8_t{1});
+    known_.emplace_back(now_[b].cell.size(), static_cast<std::uint8_t>(known_state | known_phi));
+    if (!with_phi_) continue;
+    for (const std::size_t c : now_[b].cell) now_[b].phi.push_back(stepper.surface()->phi()[b][c]);
+    before_[b].phi = now_[b].phi;
+    rate_[b].phi.assign(now_[b].phi.size(), 0.0);  // only the first prediction starts from it
   }
   known_now_ = known_before_ = known_;
 }
@@ -70,6 +77,7 @@ std::vector<Imposed<D>> TargetCells<D>::extrapolated(double dt) const {
     };
     go_on(values[b].p, rate_[b].p);
     for (std::size_t k = 0; k < D; ++k) go_on(values[b].u[k], rate_[b].u[k]);
+    go_on(values[b].phi, rate_[b].phi);
   }
   return values;
 }
@@ -82,13 +90,15 @@ std::vector<Imposed<D>> TargetCells<D>::received(const std::vector<Block<D>>& bl
   std::size_t i = 0;
   for (std::size_t b = 0; b < values.size(); ++b)
     for (std::size_t m = 0; m < values[b].cell.size(); ++m, ++i) {
-      known_[b][m] = samples.status[i] == coupler::SampleStatus::ok;
-      if (known_[b][m]) {
+      const bool ok = samples.status[i] == coupler::SampleStatus::ok;
+      const bool water_or_air = with_phi_ && samples.status[i] != coupler::SampleStatus::uncovered;
+      known_[b][m] = static_cast<std::uint8_t>((ok ? known_state : 0) | (water_or_air ? known_phi : 0));
+      if (ok) {
         values[b].p[m] = samples.p[i];
         for (std::size_t k = 0; k < D; ++k) values[b].u[k][m] = (*velocity[axis_in_space<D>(k)])[i];
-        continue;
       }
-      if (!required) continue;  // keeps what it had
+      if (water_or_air) values[b].phi[m] = ok ? samples.phi[i] : std::abs(samples.phi[i]);
+      if (ok || water_or_air || !required) continue;
       const auto index = blocks[b].extent.index(static_cast<std::ptrdiff_t>(values[b].cell[m]));
       char text[400];
       std::snprintf(
@@ -111,12 +121,13 @@ void TargetCells<D>::accept(std::vector<Imposed<D>> values, double dt) {
   const Mask& known_from = dt_before_ > 0.0 ? known_before_ : known_now_;
   const double span = dt + dt_before_;
   for (std::size_t b = 0; b < now_.size(); ++b) {
-    const auto slope = [&, b](Field& rate, const Field& begin, const Field& end) {
+    const auto slope = [&, b](Field& rate, const Field& begin, const Field& end, int bit) {
       for (std::size_t i = 0; i < rate.size(); ++i)
-        rate[i] = known_[b][i] && known_from[b][i] ? (end[i] - begin[i]) / span : 0.0;
+        rate[i] = (known_[b][i] & known_from[b][i] & bit) != 0 ? (end[i] - begin[i]) / span : 0.0;
     };
-    slope(rate_[b].p, from[b].p, values[b].p);
-    for (std::size_t k = 0; k < D; ++k) slope(rate_[b].u[k], from[b].u[k], values[b].u[k]);
+    slope(rate_[b].p, from[b].p, values[b].p, known_state);
+    for (std::size_t k = 0; k < D; ++k) slope(rate_[b].u[k], from[b].u[k], values[b].u[k], known_state);
+    slope(rate_[b].phi, from[b].phi, values[b].phi, known_phi);
   }
   before_ = std::move(now_);
   now_ = std::move(values);
@@ -171,6 +182,8 @@ void TargetCells<D>::save(StateWriter<D>& file) const {
     write(what, 0, 0.0, gather([&](std::size_t i, std::size_t m) { return values[i].p[m]; }));
     for (std::size_t k = 0; k < D; ++k)
       write(what, k + 1, 0.0, gather([&](std::size_t i, std::size_t m) { return values[i].u[k][m]; }));
+    if (with_phi_)
+      write(what, D + 1, 0.0, gather([&](std::size_t i, std::size_t m) { return values[i].phi[m]; }));
   };
   write_all("now", now_);
   write_all("before", before_);
@@ -202,7 +215,7 @@ void TargetCells<D>::load(const support::CheckpointReader& file) {
     };
     const auto read = [&](const char* what, Imposed<D>& values) {
       std::size_t n = 0;
-      for_each_field<D>(values, [&](Field& field) {
+      for_each_field<D>(values, with_phi_, [&](Field& field) {
         take(file.doubles(key(what, w, n++)), [&](std::size_t m, double value) { field[m] = value; });
       });
     };

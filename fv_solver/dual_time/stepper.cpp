@@ -192,7 +192,7 @@ StepReport Stepper<D>::advance(double dt, const std::vector<Imposed<D>>& imposed
     carry_windows(blocks_[b], equations_, s, level_[0][b], level_[1][b]);
     if (surface_) evaluate_surface_windows(blocks_[b], t);
   }
-  if (surface_) surface_->begin(blocks_, exchange_, s, w);
+  if (surface_) surface_->begin(blocks_, exchange_, s, w, imposed);
   if (!sponges_.empty()) aim_sponges(t);
   if (surface_ && damps_surface()) aim_surface_sponges(t);
   level_[3] = std::move(level_[2]);
@@ -255,7 +255,12 @@ void Stepper<D>::time_derivative(std::size_t b, State<D>& rate) const {
   History<D> none;
   none.resize(block.extent.size);
   Residual<D> r;
-  equations_.residual(block, now, BackwardDifference::steady(), none, Forcing<D>{}, r);
+  if (surface_) {
+    const BlockSurface<D> cut = surface_->block(b);
+    equations_.residual(block, now, BackwardDifference::steady(), none, Forcing<D>{}, r, &cut);
+  } else {
+    equations_.residual(block, now, BackwardDifference::steady(), none, Forcing<D>{}, r);
+  }
   const Fluid<D>& fluid = equations_.fluid;
   for_each_index<D>({}, block.extent.n, [&](const std::array<int, D>& index) {
     const auto c = static_cast<std::size_t>(block.extent.at(index));

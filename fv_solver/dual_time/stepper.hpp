@@ -12,14 +12,6 @@
 
 namespace littoral::fv {
 
-/// Values imposed on cells of one block (fringe cells, or ghosts behind a fringe window).
-template <int D>
-struct Imposed {
-  std::vector<std::size_t> cell;  // offsets
-  Field p;                        // [Pa] (cell.size())
-  VectorField<D> u;               // [m/s]
-};
-
 /// p [Pa] and u at a place and time.
 template <int D>
 struct PointState {
@@ -85,7 +77,10 @@ class Stepper {
   const std::vector<Block<D>>& blocks() const { return blocks_; }
   const Exchange<D>& exchange() const { return exchange_; }
   /// Statuses have changed since the grid was made. comm collective, throws ConfigError
-  void seek_donors() { exchange_.seek_donors(blocks_); }
+  void seek_donors() {
+    exchange_.seek_donors(blocks_);
+    if (surface_) surface_->statuses_changed(blocks_, exchange_);
+  }
   const Equations<D>& equations() const { return equations_; }
   /// Current state, ghosts current.
   std::vector<State<D>>& state() { return level_[0]; }

@@ -1,5 +1,7 @@
 #include "free_surface/free_surface.hpp"
 
+#include <cmath>
+
 #include "grid/loops.hpp"
 #include "grid/metrics.hpp"
 
@@ -48,14 +50,28 @@ void FreeSurface<D>::initialise(std::vector<Block<D>>& blocks, const Exchange<D>
 }
 
 template <int D>
+void FreeSurface<D>::statuses_changed(std::vector<Block<D>>& blocks, const Exchange<D>& exchange) {
+  set_masks(blocks, exchange);
+}
+
+template <int D>
 void FreeSurface<D>::begin(std::vector<Block<D>>& blocks, const Exchange<D>& exchange,
-                           const BackwardDifference& scheme, double ahead) {
+                           const BackwardDifference& scheme, double ahead,
+                           const std::vector<Imposed<D>>& imposed) {
   // anew from phi^n alone, so that a continued run has the same to the bit
   locate_surface<D>(blocks, exchange, set_.phi, set_.options.layers, set_.band, set_.patches);
   start_ = {set_.phi, past_};
   for (std::size_t b = 0; b < blocks.size(); ++b)
     for (std::size_t c = 0; c < set_.phi[b].size(); ++c)
       set_.phi[b][c] += ahead * (set_.phi[b][c] - past_[b][c]);
+  for (std::size_t b = 0; b < imposed.size(); ++b)
+    for (std::size_t m = 0; m < imposed[b].phi.size(); ++m) {
+      const std::size_t c = imposed[b].cell[m];
+      const double given = imposed[b].phi[m];
+      double& phi = set_.phi[b][c];
+      if ((given < 0.0) != (phi < 0.0) || std::abs(given) < k_given_reach * longest_edge(blocks[b], c))
+        phi = given;
+    }
   exchange.scalar(blocks, set_.phi, ScalarGhosts::level_set);
   set_masks(blocks, exchange);
   scheme_ = scheme;

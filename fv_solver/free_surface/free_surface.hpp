@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "free_surface/cut_faces.hpp"
+#include "free_surface/imposed.hpp"
 #include "free_surface/inflow.hpp"
 #include "level_set/level_set.hpp"
 #include "physics/equations.hpp"
@@ -27,10 +28,13 @@ class FreeSurface {
   /// throws ConfigError where the function is not finite
   void initialise(std::vector<Block<D>>& blocks, const Exchange<D>& exchange, const Equations<D>& equations,
                   const Prescribed& surface, double t, std::vector<State<D>>& q);
+  /// Cells have become fringe, forced or blanked: which of them are solved, anew.
+  void statuses_changed(std::vector<Block<D>>& blocks, const Exchange<D>& exchange);
 
-  /// A step of `scheme` begins, `ahead` = dt/dt before (0 in the first).
+  /// A step of `scheme` begins, `ahead` = dt/dt before (0 in the first). Fringe cells get `imposed` phi, that
+  /// of the new time: at the surface as it is, further away where its sign is another.
   void begin(std::vector<Block<D>>& blocks, const Exchange<D>& exchange, const BackwardDifference& scheme,
-             double ahead);
+             double ahead, const std::vector<Imposed<D>>& imposed = {});
   /// in/out q: u and p in the air; ghosts not current on return
   void follow(std::vector<Block<D>>& blocks, const Exchange<D>& exchange, const Equations<D>& equations,
               std::vector<State<D>>& q);
@@ -45,6 +49,7 @@ class FreeSurface {
   /// Of a block, as it stands: for Equations::residual.
   BlockSurface<D> block(std::size_t b) { return {set_.phi[b], wet_[b], evaluations_ > k_settling, cut_[b]}; }
   const std::vector<Field>& phi() const { return set_.phi; }
+  const std::vector<Field>& phi_before() const { return past_; }  // one step ago
   LevelSet<D>& level_set() { return set_; }
   /// The surface's Courant number of a unit step [1/s].
   double rate(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange) const {

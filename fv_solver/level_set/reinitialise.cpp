@@ -68,7 +68,7 @@ void reinitialise(const std::vector<Block<D>>& blocks, const Exchange<D>& exchan
     double* f = phi[b].data();
     const auto set = [&](std::ptrdiff_t c, double distance) {
       const CellStatus status = block.status[static_cast<std::size_t>(c)];
-      if (status == CellStatus::fringe || status == CellStatus::blanked) return;
+      if (status == CellStatus::blanked) return;
       f[c] = f[c] < 0.0 ? -distance : distance;
     };
     for_each_index<D>({}, block.extent.n, [&](const std::array<int, D>& index) {

@@ -19,7 +19,7 @@ void locate_surface(const std::vector<Block<D>>& blocks, const Exchange<D>& exch
 
 /// Makes phi the signed distance in a band around its zero level, which does not move: |phi| becomes the
 /// distance to the nearest patch of the surface, signs are kept. Beyond the band phi is +- the band's depth
-/// in cells of the place's size: only its sign has a meaning there. Fringe cells keep what they were given;
+/// in cells of the place's size: only its sign has a meaning there. Blanked cells keep what they have;
 /// interpolated ones are refreshed.
 /// in/out phi, ghosts current before and after; out band, patches
 /// history: phi of the step before; cells that were beyond its band (`band` as it comes in) get the present

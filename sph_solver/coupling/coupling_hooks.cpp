@@ -16,7 +16,7 @@ CouplingHooks<D>::CouplingHooks(const Layers<D>& layers, const Numerics<D>& nume
 
 template <int D>
 void CouplingHooks<D>::after_stage(Particles<D>& particles, double t) {
-  count_ = drive_layers(particles, layers_, fv_, eos_, t);
+  count_ = drive_layers(particles, layers_, fv_, eos_, spacing_, t);
 }
 
 template <int D>

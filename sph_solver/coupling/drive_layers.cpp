@@ -26,7 +26,7 @@ template <int D>
 
 template <int D>
 LayerCount drive_layers(Particles<D>& particles, const Layers<D>& layers, const Exterior& fv,
-                        const LinearEos& eos, double time) {
+                        const LinearEos& eos, double spray, double time) {
   if (!layers.any_open()) return {};
   const auto n = static_cast<std::ptrdiff_t>(particles.n_owned);
   std::size_t blending = 0, driven = 0, unreached = 0;
@@ -43,7 +43,7 @@ LayerCount drive_layers(Particles<D>& particles, const Layers<D>& layers, const 
     if (zone == Zone::interior) continue;
     try {
       const auto state = fv.at(to_vec3<D>(x), time, particles.donor_hint[i]);
-      if (!state) {
+      if (!state || (fv.with_phi() && state->phi > spray)) {
         ++unreached;
         first_unreached = k < first_unreached ? k : first_unreached;
         continue;
@@ -67,8 +67,8 @@ LayerCount drive_layers(Particles<D>& particles, const Layers<D>& layers, const 
 }
 
 template LayerCount drive_layers<2>(Particles<2>&, const Layers<2>&, const Exterior&, const LinearEos&,
-                                    double);
+                                    double, double);
 template LayerCount drive_layers<3>(Particles<3>&, const Layers<3>&, const Exterior&, const LinearEos&,
-                                    double);
+                                    double, double);
 
 }  // namespace littoral::sph

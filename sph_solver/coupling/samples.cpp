@@ -60,8 +60,19 @@ struct Weighted {
 
 template <int D>
 void sample_states(const Particles<D>& particles, const Layers<D>& layers, const SampleRules& rules,
-                   const coupler::Targets& targets, coupler::Samples& samples, const Walls<D>* walls) {
+                   const coupler::Targets& targets, coupler::Samples& samples, const Walls<D>* walls,
+                   const Ghosts<D>* ghosts) {
   const Kernel<D> kernel(rules.kernel_radius);
+  const bool corrected = rules.method == SampleMethod::corrected;
+  std::vector<double> p_beyond(particles.p.begin(),
+                               particles.p.begin() + static_cast<std::ptrdiff_t>(particles.size()));
+  const auto weight_at = [&](const Point<D>& place) {
+    double p = 0.0;
+    for (std::size_t d = 0; d < D; ++d) p += rules.weight[space_axis<D>(d)] * place[d];
+    return corrected ? p : 0.0;
+  };
+  for (std::size_t j = 0; j < particles.size(); ++j) p_beyond[j] -= weight_at(at<D>(particles.x, j));
+  if (ghosts != nullptr) ghosts->refresh_scalar(p_beyond, particles.n_owned);
   std::array<std::vector<double>, D> x;
   std::vector<std::size_t> source;
   std::vector<std::int64_t> id;
@@ -119,7 +130,7 @@ void sample_states(const Particles<D>& particles, const Layers<D>& layers, const
         continue;
       }
       std::array<double, k_basis<D>> c{};
-      if (rules.method == SampleMethod::shepard || !first_column_of_inverse<D>(A, c)) {
+      if (!corrected || !first_column_of_inverse<D>(A, c)) {
         c.fill(0.0);
         c[0] = 1.0 / A[0][0];
       }
@@ -131,10 +142,10 @@ void sample_states(const Particles<D>& particles, const Layers<D>& layers, const
           factor += c[d + 1] * (x[d][neighbor.j] - target[d]) * kernel.inv_R;
         factor *= neighbor.weight;
         const std::size_t j = source[neighbor.j];
-        p += factor * particles.p[j];
+        p += factor * p_beyond[j];
         for (std::size_t d = 0; d < D; ++d) u[d] += factor * particles.u[d][j];
       }
-      samples.p[t] = p;
+      samples.p[t] = p + weight_at(target);
       for (std::size_t d = 0; d < D; ++d) velocity[space_axis<D>(d)][t] = u[d];
       samples.status[t] = coupler::SampleStatus::ok;
     }
@@ -142,8 +153,8 @@ void sample_states(const Particles<D>& particles, const Layers<D>& layers, const
 }
 
 template void sample_states<2>(const Particles<2>&, const Layers<2>&, const SampleRules&,
-                               const coupler::Targets&, coupler::Samples&, const Walls<2>*);
+                               const coupler::Targets&, coupler::Samples&, const Walls<2>*, const Ghosts<2>*);
 template void sample_states<3>(const Particles<3>&, const Layers<3>&, const SampleRules&,
-                               const coupler::Targets&, coupler::Samples&, const Walls<3>*);
+                               const coupler::Targets&, coupler::Samples&, const Walls<3>*, const Ghosts<3>*);
 
 }  // namespace littoral::sph

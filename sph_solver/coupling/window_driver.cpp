@@ -20,6 +20,13 @@ DomainBox<D> domain_box(const support::Scene& scene) {
   return box;
 }
 
+/// rho0 g [N/m^3]
+std::array<double, 3> weight_of(const support::Scene& scene) {
+  std::array<double, 3> weight = scene.gravity;
+  for (double& component : weight) component *= scene.fluid.density;
+  return weight;
+}
+
 }  // namespace
 
 template <int D>
@@ -28,7 +35,7 @@ WindowDriver<D>::WindowDriver(const support::Scene& scene, const CouplingConfig&
     : partner_(partner),
       passes_(scene.coupling.schedule.sph_passes()),
       with_phi_(support::level_set_crosses(scene)),
-      sample_rules_{config.samples, numerics.kernel_radius, scene.has_free_surface()},
+      sample_rules_{config.samples, numerics.kernel_radius, scene.has_free_surface(), weight_of(scene)},
       spacing_(numerics.spacing),
       phi_band_(config.phi_band * numerics.spacing),
       level_follows_fv_(!numerics.free_surface),
@@ -109,10 +116,15 @@ void WindowDriver<D>::send_samples(const coupler::Window& window, Particles<D>& 
                                    Dynamics<D>& dynamics) {
   dynamics.prepare(particles, window.t_end, &hooks_);
   samples_.time = window.t_end;
-  sample_states(particles, layers(), sample_rules_, partner_.targets(), samples_, dynamics.walls());
-  if (with_phi_)
-    sample_level_set(particles, dynamics.ghosts(), sample_rules_, spacing_, phi_band_, partner_.targets(),
-                     samples_);
+  sample_states(particles, layers(), sample_rules_, partner_.targets(), samples_, dynamics.walls(),
+                &dynamics.ghosts());
+  if (with_phi_) {
+    const SurfaceDistance<D> surface(particles, dynamics.ghosts(), sample_rules_.kernel_radius, spacing_,
+                                     surface_reach());
+    sample_level_set(surface, phi_band_, partner_.targets(), samples_);
+    constrain_pressure(particles, layers(), surface, spacing_, reference_pressure_, partner_.targets(),
+                       samples_);
+  }
   partner_.send(window, samples_);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 
@@ -48,11 +49,18 @@ class WindowDriver {
   void advance(const coupler::Agreement& agreement, Particles<D>& particles, Dynamics<D>& dynamics);
 
   /// The points the partner wants values at, and their surroundings: the halo must be complete there.
-  RankBox<D> interest() const { return box_of_targets<D>(partner_.targets(), with_phi_ ? phi_band_ : 0.0); }
+  RankBox<D> interest() const {
+    return box_of_targets<D>(partner_.targets(),
+                             with_phi_ ? surface_reach() + k_surface_kernel * spacing_ : 0.0);
+  }
 
   const coupler::Ledger& ledger() const { return ledger_; }  ///< summed over ranks, of the last window
 
  private:
+  /// How far from a target surface particles matter [m].
+  double surface_reach() const {
+    return std::max(phi_band_, (k_surface_depth + 1.0 + k_surface_kernel) * spacing_);
+  }
   void send_samples(const coupler::Window& window, Particles<D>& particles, Dynamics<D>& dynamics);
 
   coupler::FvPartner& partner_;

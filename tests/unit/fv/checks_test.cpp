@@ -24,18 +24,6 @@ std::string refusal(F&& f) {
 /// z - level, as a scene's file would give it.
 support::Formula surface_at(const std::string& formula) { return support::Formula(formula, {}); }
 
-TEST(ChecksTest, ASceneWhoseLevelSetCrossesIsRefused) {
-  auto scene = test::top_scene(9.81);
-  scene.initial.surface = surface_at("z-1");
-  EXPECT_NO_THROW(check_scene(scene));  // a wave: the particles have the surface whole
-  auto forced = scene;
-  forced.coupling.kind = support::Scene::CouplingKind::forced;
-  EXPECT_NE(refusal([&] { check_scene(forced); }).find("level set would have to cross"), std::string::npos);
-  auto pool = scene;
-  pool.regions[0].lower[0] = 0.25;  // an upright face, through which the surface passes
-  EXPECT_NE(refusal([&] { check_scene(pool); }).find("level set would have to cross"), std::string::npos);
-}
-
 TEST(ChecksTest, AFringeFaceBesideSolvedCellsIsRefused) {
   const auto scene = test::top_scene(0.0);  // the particles have everything above z = .5
   std::vector<Block<2>> blocks{test::water_box<2>(16, true)};

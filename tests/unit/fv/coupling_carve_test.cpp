@@ -160,7 +160,7 @@ TEST(DonorOfferTest, PointsBesideAPeriodicFaceFindDonorsWithTheImagesValues) {
   ASSERT_EQ(offer.geometry().patches.size(), 1u);
   EXPECT_EQ(offer.geometry().patches[0].n, (std::array<int, 3>{12, 1, 12}));
   coupler::DonorValues values;
-  offer.put_state(stepper.state(), values);
+  offer.put_state(stepper, values);
   offer.put_rates(stepper, values);
   values.horizon_end = 1.0;
   const coupler::DonorSearch search(offer.geometry(), 2);

@@ -9,6 +9,7 @@
 #include "grid/metrics.hpp"
 #include "implicit/multigrid_solver.hpp"
 #include "littoral/coupler/analytic.hpp"
+#include "littoral/support/run_plan.hpp"
 #include "littoral/support/scene.hpp"
 
 // A box of water, 1 x 1 (x 1), whose middle or top belongs to the particles.
@@ -88,6 +89,7 @@ inline coupler::RunPlan plan_of(const support::Scene& scene, double time = 0.0, 
   plan.start_time = time;
   plan.start_window = window;
   plan.end_time = scene.time.end;
+  plan.with_phi = support::level_set_crosses(scene);
   return plan;
 }
 

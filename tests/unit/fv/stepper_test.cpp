@@ -107,7 +107,7 @@ TEST(StepperTest, ImposedCellsKeepTheirValues) {
   const auto c = static_cast<std::size_t>(block.extent.at({3, 3}));
   block.status[c] = CellStatus::fringe;
   set_solved_mask(block);
-  stepper.advance(0.1, {Imposed<2>{{c}, {5.0}, {Field{0.2}, Field{-0.1}}}});
+  stepper.advance(0.1, {Imposed<2>{{c}, {5.0}, {Field{0.2}, Field{-0.1}}, {}}});
   EXPECT_EQ(stepper.state()[0].p[c], 5.0);
   EXPECT_EQ(stepper.state()[0].u[0][c], 0.2);
   EXPECT_EQ(stepper.state()[0].u[1][c], -0.1);

@@ -17,7 +17,7 @@ TEST(DriveLayersTest, BlendsBySeventeenAndDrivesOutside) {
   Particles<2> particles;
   for (double z : {0.9, 1.125, 1.5})
     particles.append({{0.5, z}, {-1.0, -1.0}, 1e-4, 0.1, 7.0, Zone::interior});
-  const LayerCount count = drive_layers(particles, layers, fv, k_eos, 3.0);
+  const LayerCount count = drive_layers(particles, layers, fv, k_eos, 0.1, 3.0);
   EXPECT_EQ(count.blending, 1u);
   EXPECT_EQ(count.driven, 1u);
   EXPECT_EQ(particles.p[0], 7.0);
@@ -39,12 +39,12 @@ TEST(DriveLayersTest, ParticleWithoutDonorsIsAnErrorUnlessThereIsAir) {
   Particles<3> particles;
   particles.append({{0.5, 0.5, 1.5}, {0.0, 0.0, 0.0}, 1e-4, 0.1, 7.0, Zone::interior});
   try {
-    drive_layers(particles, layers, test::FormulaExterior(nothing), k_eos, 0.0);
+    drive_layers(particles, layers, test::FormulaExterior(nothing), k_eos, 0.1, 0.0);
     FAIL() << "expected CouplingError";
   } catch (const CouplingError& error) {
     EXPECT_NE(std::string(error.what()).find("(0.5, 0.5, 1.5)"), std::string::npos) << error.what();
   }
-  const auto count = drive_layers(particles, layers, test::FormulaExterior(nothing, true), k_eos, 0.0);
+  const auto count = drive_layers(particles, layers, test::FormulaExterior(nothing, true), k_eos, 0.1, 0.0);
   EXPECT_EQ(count.unreached, 1u);
   EXPECT_EQ(particles.p[0], 7.0);
 }

@@ -182,6 +182,50 @@ TEST(SamplesTest, ALineOfParticlesFallsBackToShepard) {
   EXPECT_NEAR(samples.p[0], 4.0, 1e-12);
 }
 
+/// Still water 1 deep over a symmetry plane at z = 0, rows of the lattice up to z = 1.
+TEST(SamplesTest, HydrostaticPressureIsExactBesideASymmetryPlaneAndZeroOnTheSurface) {
+  const test::FormulaExterior field([](const coupler::Vec3& x, double) {
+    return coupler::DonorState{1e4 * (1.0 - x[2]), {0.0, 0.0, 0.0}, 0.0};
+  });
+  Point<2> lower{0.0, 0.0}, upper{1.0, 1.0};
+  auto particles = test::lattice<2>(lower, upper, k_dx, k_eos, field);
+  particles.p.resize(particles.size());
+  for (std::size_t i = 0; i < particles.n_owned; ++i)
+    if (particles.x[1][i] > 1.0 - k_dx) {
+      particles.surface[i] = SurfaceFlag::surface;
+      particles.normal[0][i] = 0.0;
+      particles.normal[1][i] = 1.0;
+    }
+  DomainBox<2> domain;
+  domain.lower = {0.0, 0.0};
+  domain.upper = {1.0, 2.0};
+  domain.sides[0] = {support::Scene::Side::periodic, support::Scene::Side::periodic};
+  domain.sides[1] = {support::Scene::Side::symmetry, support::Scene::Side::open};
+  Ghosts<2> ghosts(domain);
+  ghosts.create(particles, 4 * k_dx);
+  const auto targets = points(
+      {{0.5, 0, 0.025}, {0.5, 0, 0.1}, {0.02, 0, 0.5}, {0.5, 0, 0.87}, {0.5, 0, 0.99}, {0.5, 0, 1.02}});
+  const auto layers = test::unit_box<2>({{{false, false}, {false, false}}}, 0.1, 0.4);
+  const SampleRules rules{SampleMethod::corrected, 4 * k_dx, true, {0.0, 0.0, -1e4}};
+  coupler::Samples samples;
+  samples.resize(targets.size(), true);
+  sample_states<2>(particles, layers, rules, targets, samples, nullptr, &ghosts);
+  const SurfaceDistance<2> surface(particles, ghosts, 4 * k_dx, k_dx, 6 * k_dx);
+  sample_level_set(surface, 3 * k_dx, targets, samples);
+  constrain_pressure(particles, layers, surface, k_dx, 0.0, targets, samples);
+  for (std::size_t t = 0; t < targets.size(); ++t)
+    EXPECT_NEAR(samples.p[t], 1e4 * (1.0 - targets.z[t]), 1e-8) << targets.z[t];
+  // whatever a layer at the surface carries, p is the surface's on it
+  for (std::size_t i = 0; i < particles.size(); ++i) particles.p[i] += 300.0;
+  const auto on_surface = points({{0.5, 0, 1.0}});
+  samples.resize(1, true);
+  sample_states<2>(particles, layers, rules, on_surface, samples, nullptr, &ghosts);
+  EXPECT_NEAR(samples.p[0], 300.0, 1e-8);
+  sample_level_set(surface, 3 * k_dx, on_surface, samples);
+  constrain_pressure(particles, layers, surface, k_dx, 0.0, on_surface, samples);
+  EXPECT_NEAR(samples.p[0], 0.0, 1e-8);
+}
+
 TEST(SamplesTest, LevelSetOfAPlaneAndACircle) {  // (20), gate 0.25 dx
   const double R = 0.7;
   Particles<2> particles;
@@ -197,8 +241,8 @@ TEST(SamplesTest, LevelSetOfAPlaneAndACircle) {  // (20), gate 0.25 dx
   coupler::Samples samples;
   samples.resize(targets.size(), true);
   samples.coverage.assign(targets.size(), 1.0);
-  sample_level_set(particles, Ghosts<2>(DomainBox<2>{}), {SampleMethod::corrected, 4 * k_dx, true}, k_dx,
-                   6 * k_dx, targets, samples);
+  const SurfaceDistance<2> surface(particles, Ghosts<2>(DomainBox<2>{}), 4 * k_dx, k_dx, 6 * k_dx);
+  sample_level_set(surface, 6 * k_dx, targets, samples);
   for (std::size_t t = 0; t < 3; ++t)
     EXPECT_NEAR(samples.phi[t], std::hypot(targets.x[t], targets.z[t]) - R, 0.25 * k_dx);
   EXPECT_EQ(samples.phi[3], -6 * k_dx) << "far inside: the band's end";
@@ -226,7 +270,7 @@ coupler::Samples level_set_of_row(const std::function<double(double)>& z, double
   coupler::Samples samples;
   samples.resize(targets.size(), true);
   samples.coverage.assign(targets.size(), 1.0);
-  sample_level_set(particles, ghosts, {SampleMethod::corrected, 4 * k_dx, true}, k_dx, 3 * k_dx, targets,
+  sample_level_set(SurfaceDistance<2>(particles, ghosts, 4 * k_dx, k_dx, 3 * k_dx), 3 * k_dx, targets,
                    samples);
   return samples;
 }

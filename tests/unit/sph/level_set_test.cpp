@@ -56,7 +56,7 @@ coupler::Samples level_set(Particles<D>& particles, const DomainBox<D>& box, dou
   coupler::Samples samples;
   samples.resize(targets.size(), true);
   samples.coverage.assign(targets.size(), 0.0);
-  sample_level_set(particles, ghosts, {SampleMethod::corrected, radius, true}, 1.0, 3.0, targets, samples);
+  sample_level_set(SurfaceDistance<D>(particles, ghosts, radius, 1.0, 3.0), 3.0, targets, samples);
   return samples;
 }
 
