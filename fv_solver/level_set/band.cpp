@@ -25,17 +25,30 @@ std::vector<std::ptrdiff_t> doors(const Block<D>& block, const Field& stands) {
   return found;
 }
 
+/// Whether one of the cells around c, diagonals included, holds water.
+template <int D>
+bool beside_water(const Block<D>& block, const Field& stands, const Field& phi, std::ptrdiff_t c) {
+  bool water = false;
+  for_each_around<D>(block.extent.stride, c, [&](const std::array<int, D>&, std::ptrdiff_t other) {
+    const auto o = static_cast<std::size_t>(other);
+    water = water || (phi[o] < 0.0 && stands[o] != 0.0);
+  });
+  return water;
+}
+
 template <int D>
 bool at_surface(const Block<D>& block, const Field& stands, const Field& phi, std::ptrdiff_t c) {
   const double here = phi[static_cast<std::size_t>(c)];
+  bool film = false;
   for (std::size_t d = 0; d < D; ++d)
     for (const std::ptrdiff_t step : {-block.extent.stride[d], block.extent.stride[d]}) {
       const auto other = static_cast<std::size_t>(c + step);
       if ((here < 0.0) == (phi[other] < 0.0)) continue;
+      if (stands[other] != 0.0) return true;
       const bool outside_grid = block.status[other] != CellStatus::blanked;
-      if (stands[other] != 0.0 || outside_grid) return true;
+      film = film || (outside_grid && std::abs(here) <= std::abs(phi[other]));
     }
-  return false;
+  return film && (here < 0.0 || beside_water(block, stands, phi, c));
 }
 
 }  // namespace

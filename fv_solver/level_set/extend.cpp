@@ -42,6 +42,19 @@ SpaceMatrix<D> inverse_of_squares(SpaceMatrix<D> m, bool& degenerate) {
   return inverse<D>(m);
 }
 
+/// The gradient nearest to one of least squares whose divergence is 0: the change goes where the squares say
+/// least. Where no neighbour lies across a thread of water, that is how the flow draws it thinner.
+template <int D>
+void close_divergence(const SpaceMatrix<D>& inverse, SpaceMatrix<D>& gradient) {
+  double divergence = 0.0, trace = 0.0;
+  for (std::size_t k = 0; k < D; ++k) {
+    divergence += gradient[k][k];
+    trace += inverse[k][k];
+  }
+  for (std::size_t k = 0; k < D; ++k)
+    for (std::size_t l = 0; l < D; ++l) gradient[k][l] -= divergence / trace * inverse[l][k];
+}
+
 /// At the tip of a wedge or in a film a cell's water neighbours may lie on one line: it takes the mean
 /// gradient of those that know better, if there are any.
 template <int D>
@@ -95,6 +108,7 @@ void VelocityExtension<D>::gradients_of_water(const std::vector<Block<D>>& block
       if (trace > 0.0) {
         const SpaceMatrix<D> inverse = inverse_of_squares<D>(squares, degenerate);
         for (std::size_t k = 0; k < D; ++k) solved[k] = times(inverse, sums[k]);
+        if (degenerate) close_divergence<D>(inverse, solved);
       }
       for (std::size_t k = 0; k < D; ++k)
         for (std::size_t l = 0; l < D; ++l) gradient_[b][k][l][static_cast<std::size_t>(c)] = solved[k][l];

@@ -172,6 +172,18 @@ bool own_patch(const Block<D>& block, const Band<D>& band, const Field& phi, std
   return crossed;
 }
 
+constexpr double k_film = 2.0;  // mark of patches of films; of others 1
+
+/// Whether a cell at the surface sees it only beyond the grid: a film on a wall, thinner than half a cell.
+template <int D>
+bool is_film(const Block<D>& block, const Band<D>& band, const Field& phi, std::size_t b, std::ptrdiff_t c) {
+  if (phi[static_cast<std::size_t>(c)] < 0.0) return false;
+  for (const std::ptrdiff_t s : block.extent.stride)
+    for (const std::ptrdiff_t other : {c - s, c + s})
+      if (phi[static_cast<std::size_t>(other)] < 0.0 && band.stands_for_cell(b, other)) return false;
+  return true;
+}
+
 template <int D>
 Foot<D> closest_point(const SurfacePatch<D>& patch, double reach) {
   const SpaceVector<D>& n = patch.normal;
@@ -225,7 +237,8 @@ SurfacePatch<D> SurfacePatches<D>::at(std::size_t block, std::ptrdiff_t cell) co
 }
 
 template <int D>
-void SurfacePatches<D>::put(std::size_t block, std::ptrdiff_t cell, const SurfacePatch<D>& patch) {
+void SurfacePatches<D>::put(std::size_t block, std::ptrdiff_t cell, const SurfacePatch<D>& patch,
+                            double mark) {
   auto& f = numbers_[block];
   const auto c = static_cast<std::size_t>(cell);
   std::size_t number = 2 * D;
@@ -234,7 +247,7 @@ void SurfacePatches<D>::put(std::size_t block, std::ptrdiff_t cell, const Surfac
     f[D + k][c] = patch.normal[k];
     for (std::size_t l = 0; l <= k; ++l) f[number++][c] = patch.S[k][l];
   }
-  known_[block][c] = 1.0;
+  known_[block][c] = mark;
 }
 
 template <int D>
@@ -270,8 +283,11 @@ void SurfacePatches<D>::build(const std::vector<Block<D>>& blocks, const Exchang
       for (std::ptrdiff_t i = 0; i < cells.size(); ++i) {
         const std::ptrdiff_t c = cells[i];
         SurfacePatch<D> best;
-        double least = std::numeric_limits<double>::infinity();
-        if (layer == 0 && own_patch(block, band, phi[b], b, c, best)) least = length(best.to_base);
+        double least = std::numeric_limits<double>::infinity(), mark = 1.0;
+        if (layer == 0 && own_patch(block, band, phi[b], b, c, best)) {
+          least = length(best.to_base);
+          if (is_film(block, band, phi[b], b, c)) mark = k_film;
+        }
         if (layer > 0) {
           const auto& stride = block.extent.stride;
           for_each_around<D>(stride, c, [&](const std::array<int, D>& step, std::ptrdiff_t other) {
@@ -284,14 +300,17 @@ void SurfacePatches<D>::build(const std::vector<Block<D>>& blocks, const Exchang
             if (distance >= least) return;
             least = distance;
             best = patch;
+            mark = known_[b][static_cast<std::size_t>(other)];
             int code = 0;
             for (std::size_t d = D; d-- > 0;) code = 3 * code + step[d] + 1;
             source_[b][static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(code);
           });
         }
         if (!(least < std::numeric_limits<double>::infinity())) continue;
-        put(b, c, best);
-        feet_[b][static_cast<std::size_t>(before + i)] = closest_point(best, diagonal(block, c));
+        put(b, c, best, mark);
+        // a film is known in its own cell only: carried on beyond, it would grow by a cell in every step
+        const double reach = diagonal(block, c) * (mark == k_film ? 0.5 / std::sqrt(double{D}) : 1.0);
+        feet_[b][static_cast<std::size_t>(before + i)] = closest_point(best, reach);
       }
     }
   }

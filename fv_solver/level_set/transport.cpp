@@ -3,14 +3,38 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/between.hpp"
+
 namespace littoral::fv {
 namespace {
 
-/// Third-order difference of an array, upwind of a flow along +stride (or against it).
-inline double upwind_difference(const double* f, std::ptrdiff_t c, std::ptrdiff_t stride, bool forward) {
+/// An upwind difference along one direction of the grid, of any array: third order where phi is smooth.
+/// Across the ridge of phi in the middle of a thin body, or between two, its two second differences are
+/// unlike, and the one of the smoother side counts (weighted as Jiang & Peng 2000, with two stencils): with
+/// fixed weights the fore side of a thread of water three cells wide went a third faster than its rear.
+struct UpwindDifference {
+  std::ptrdiff_t step;           // downwind
+  double ahead, own, near, far;  // weights of the cells from one downwind to two upwind
+  double operator()(const double* f, std::ptrdiff_t c) const {
+    return ahead * f[c + step] + own * f[c] + near * f[c - step] + far * f[c - 2 * step];
+  }
+};
+
+/// spacing2 [m^2]: squared distance of the centres around c
+UpwindDifference upwind_difference(const double* phi, std::ptrdiff_t c, std::ptrdiff_t stride, bool forward,
+                                   double spacing2) {
   const std::ptrdiff_t s = forward ? stride : -stride;
-  const double difference = (2.0 * f[c + s] + 3.0 * f[c] - 6.0 * f[c - s] + f[c - 2 * s]) / 6.0;
-  return forward ? difference : -difference;
+  const double here = phi[c + s] - 2.0 * phi[c] + phi[c - s],
+               upwind = phi[c] - 2.0 * phi[c - s] + phi[c - 2 * s];
+  // a distance bends by h^2/R where it is smooth, by up to 2 h at a ridge
+  constexpr double k_smooth = 0.0625;  // (h/4)^2
+  const auto weight = [&](double share, double bend) {
+    const double b = k_smooth * spacing2 + bend * bend;
+    return share / (b * b);
+  };
+  const double w_here = weight(2.0 / 3.0, here), w_upwind = weight(1.0 / 3.0, upwind);
+  const double w = w_upwind / (w_here + w_upwind), sign = forward ? 1.0 : -1.0;
+  return {s, sign * 0.5 * (1.0 - w), sign * 1.5 * w, -sign * (0.5 + 1.5 * w), sign * 0.5 * w};
 }
 
 template <int D>
@@ -28,9 +52,11 @@ double advection(const Block<D>& block, const double* phi, const SpaceVector<D>&
   SpaceVector<D> change;
   for (std::size_t d = 0; d < D; ++d) {
     const std::ptrdiff_t s = block.extent.stride[d];
-    change[d] = upwind_difference(phi, c, s, rate[d] > 0.0);
-    for (std::size_t k = 0; k < D; ++k)
-      dx[k][d] = upwind_difference(block.centre[k].data(), c, s, rate[d] > 0.0);
+    const SpaceVector<D> across = between(block, c - s, c + s);
+    const UpwindDifference difference =
+        upwind_difference(phi, c, s, rate[d] > 0.0, 0.25 * dot(across, across));
+    change[d] = difference(phi, c);
+    for (std::size_t k = 0; k < D; ++k) dx[k][d] = difference(block.centre[k].data(), c);
   }
   return dot(times(inverse<D>(dx), u), change);
 }
