@@ -184,8 +184,9 @@ std::vector<double> Gauges<D>::values(const Stepper<D>& stepper) const {
           wall_units<D>(stepper.blocks(), stepper.equations(), stepper.state(), gauge.wall, ranks);
       values.insert(values.end(), {units.largest, units.mean});
     } else {
-      const WallLoads loads = wall_loads<D>(stepper.blocks(), stepper.equations(), stepper.state(),
-                                            gauge.wall, gauge.moment_about, ranks);
+      const WallLoads loads = wall_loads<D>(
+          stepper.blocks(), stepper.equations(), stepper.state(), gauge.wall, gauge.moment_about, ranks,
+          stepper.surface() != nullptr ? &stepper.surface()->phi() : nullptr);
       for (const Load& load : {loads.total(), loads.dynamic(), loads.pressure, loads.viscous}) {
         for (std::size_t a = 0; a < 3; ++a)
           if (active<D>(a)) values.push_back(load.force[a]);

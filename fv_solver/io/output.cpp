@@ -109,7 +109,8 @@ void Output<D>::row(const Stepper<D>& stepper, const StepReport& report, double 
   }
   for (const auto& wall : walls_) {
     const WallLoads loads =
-        wall_loads<D>(stepper.blocks(), stepper.equations(), stepper.state(), wall, {}, ranks_);
+        wall_loads<D>(stepper.blocks(), stepper.equations(), stepper.state(), wall, {}, ranks_,
+                      stepper.surface() != nullptr ? &stepper.surface()->phi() : nullptr);
     for (const Load& load : {loads.total(), loads.dynamic()})
       for (std::size_t a = 0; a < 3; ++a)
         if (D == 3 || a != 1) values.push_back(load.force[a]);

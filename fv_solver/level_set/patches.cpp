@@ -237,8 +237,7 @@ SurfacePatch<D> SurfacePatches<D>::at(std::size_t block, std::ptrdiff_t cell) co
 }
 
 template <int D>
-void SurfacePatches<D>::put(std::size_t block, std::ptrdiff_t cell, const SurfacePatch<D>& patch,
-                            double mark) {
+void SurfacePatches<D>::put(std::size_t block, std::ptrdiff_t cell, const SurfacePatch<D>& patch) {
   auto& f = numbers_[block];
   const auto c = static_cast<std::size_t>(cell);
   std::size_t number = 2 * D;
@@ -247,7 +246,7 @@ void SurfacePatches<D>::put(std::size_t block, std::ptrdiff_t cell, const Surfac
     f[D + k][c] = patch.normal[k];
     for (std::size_t l = 0; l <= k; ++l) f[number++][c] = patch.S[k][l];
   }
-  known_[block][c] = mark;
+  known_[block][c] = 1.0;
 }
 
 template <int D>
@@ -307,7 +306,8 @@ void SurfacePatches<D>::build(const std::vector<Block<D>>& blocks, const Exchang
           });
         }
         if (!(least < std::numeric_limits<double>::infinity())) continue;
-        put(b, c, best, mark);
+        put(b, c, best);
+        known_[b][static_cast<std::size_t>(c)] = mark;
         // a film is known in its own cell only: carried on beyond, it would grow by a cell in every step
         const double reach = diagonal(block, c) * (mark == k_film ? 0.5 / std::sqrt(double{D}) : 1.0);
         feet_[b][static_cast<std::size_t>(before + i)] = closest_point(best, reach);

@@ -69,11 +69,11 @@ class SurfacePatches {
  private:
   static constexpr std::size_t k_curvatures = D * (D + 1) / 2;
   static constexpr std::size_t k_numbers = 2 * D + k_curvatures;
-  void put(std::size_t block, std::ptrdiff_t cell, const SurfacePatch<D>& patch, double mark);
+  void put(std::size_t block, std::ptrdiff_t cell, const SurfacePatch<D>& patch);
   void exchange_all(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange);
 
   std::vector<std::array<Field, k_numbers>> numbers_;  // [block][number][cell]
-  std::vector<Field> known_;                           // [block] 1 where a cell has a patch, 2 that of a film
+  std::vector<Field> known_;                           // [block] 1 where a cell has a patch
   std::vector<std::vector<Foot<D>>> feet_;             // [block] in the order of band.cells(block)
   std::vector<std::vector<std::uint8_t>> source_;      // [block] sum_d 3^d (step to the source + 1)
 };

@@ -27,7 +27,7 @@ UpwindDifference upwind_difference(const double* phi, std::ptrdiff_t c, std::ptr
   const double here = phi[c + s] - 2.0 * phi[c] + phi[c - s],
                upwind = phi[c] - 2.0 * phi[c - s] + phi[c - 2 * s];
   // a distance bends by h^2/R where it is smooth, by up to 2 h at a ridge
-  constexpr double k_smooth = 0.0625;  // (h/4)^2
+  constexpr double k_smooth = 0.25;  // (h/2)^2
   const auto weight = [&](double share, double bend) {
     const double b = k_smooth * spacing2 + bend * bend;
     return share / (b * b);

@@ -7,6 +7,7 @@
 #include "boundary/line.hpp"
 #include "grid/loops.hpp"
 #include "grid/space.hpp"
+#include "level_set/volume.hpp"
 #include "physics/flux_rows.hpp"
 
 namespace littoral::fv {
@@ -38,9 +39,50 @@ std::array<double, D> friction_on(const Block<D>& block, const State<D>& q, cons
   return friction;
 }
 
+/// Leaves of a wall's face the part below the surface, by the plane of phi on it, and moves its centre there:
+/// exact in a plane scene, in space where the surface is parallel to the face's edges. false: all of it is
+/// dry
+template <int D>
+bool keep_wet_part(const Block<D>& block, const Window<D>& w, const Line<D>& line, const Field& phi,
+                   WallFace<D>& face) {
+  const auto on_wall = [&](std::ptrdiff_t aside) {
+    const auto at = [&](std::size_t c) {
+      return phi[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(c) + aside)];
+    };
+    return 0.5 * (at(line.inner[0]) + at(line.ghost[0]));
+  };
+  std::array<double, D> slope{};  // of phi from the face's centre to its edges
+  double reach = 0.0;
+  for (std::size_t d = 0; d < D; ++d) {
+    if (d == static_cast<std::size_t>(w.direction)) continue;
+    slope[d] = 0.25 * (on_wall(block.extent.stride[d]) - on_wall(-block.extent.stride[d]));
+    reach += std::abs(slope[d]);
+  }
+  const double share = wet_share<D>(on_wall(0), slope);
+  if (share <= 0.0) return false;
+  if (share >= 1.0) return true;
+  for (std::size_t d = 0; d < D; ++d) {
+    if (slope[d] == 0.0) continue;
+    const double part = 0.5 * (1.0 - share) * slope[d] / reach;  // of the way between the centres beside it
+    const auto up = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(line.inner[0]) +
+                                             block.extent.stride[d]),
+               low = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(line.inner[0]) -
+                                              block.extent.stride[d]);
+    for (std::size_t k = 0; k < D; ++k)
+      face.at[k] -= 0.5 * part * (block.centre[k][up] - block.centre[k][low]);
+  }
+  for (std::size_t k = 0; k < D; ++k) {
+    face.area[k] *= share;
+    face.friction[k] *= share;
+  }
+  face.measure *= share;
+  return true;
+}
+
 template <int D, class Body>
 void for_each_wall_face(const std::vector<Block<D>>& blocks, const Equations<D>& equations,
-                        const std::vector<State<D>>& q, const std::string& wall, Body&& body) {
+                        const std::vector<State<D>>& q, const std::string& wall,
+                        const std::vector<Field>* phi, Body&& body) {
   const double mu = equations.fluid.density * equations.fluid.viscosity;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const Block<D>& block = blocks[b];
@@ -67,7 +109,7 @@ void for_each_wall_face(const std::vector<Block<D>>& blocks, const Equations<D>&
           face.area[k] = -frame.normal[k] * frame.measure;
           face.tangential_stress[k] = (face.friction[k] - normal_force * frame.normal[k]) / frame.measure;
         }
-        body(w, face);
+        if (phi == nullptr || keep_wet_part<D>(block, w, line, (*phi)[b], face)) body(w, face);
       });
     }
   }
@@ -98,10 +140,10 @@ Load operator+(const Load& a, const Load& b) {
 template <int D>
 WallLoads wall_loads(const std::vector<Block<D>>& blocks, const Equations<D>& equations,
                      const std::vector<State<D>>& q, const std::string& wall, const coupler::Vec3& about,
-                     const Ranks& ranks) {
+                     const Ranks& ranks, const std::vector<Field>* phi) {
   WallLoads loads;
   const Fluid<D>& fluid = equations.fluid;
-  for_each_wall_face<D>(blocks, equations, q, wall, [&](const Window<D>&, const WallFace<D>& face) {
+  for_each_wall_face<D>(blocks, equations, q, wall, phi, [&](const Window<D>&, const WallFace<D>& face) {
     const double reference = fluid.hydrostatic(face.at) - fluid.reference_pressure;
     std::array<double, D> push, weight;
     for (std::size_t k = 0; k < D; ++k) {
@@ -126,15 +168,16 @@ WallUnits wall_units(const std::vector<Block<D>>& blocks, const Equations<D>& eq
   const Fluid<D>& fluid = equations.fluid;
   if (fluid.viscosity == 0.0) return units;
   double measure = 0.0;
-  for_each_wall_face<D>(blocks, equations, q, wall, [&](const Window<D>& w, const WallFace<D>& face) {
-    if (w.condition != Condition::wall) return;
-    double stress2 = 0.0;
-    for (const double t : face.tangential_stress) stress2 += t * t;
-    const double y = face.distance * std::sqrt(std::sqrt(stress2) / fluid.density) / fluid.viscosity;
-    units.largest = std::max(units.largest, y);
-    units.mean += y * face.measure;
-    measure += face.measure;
-  });
+  for_each_wall_face<D>(
+      blocks, equations, q, wall, nullptr, [&](const Window<D>& w, const WallFace<D>& face) {
+        if (w.condition != Condition::wall) return;
+        double stress2 = 0.0;
+        for (const double t : face.tangential_stress) stress2 += t * t;
+        const double y = face.distance * std::sqrt(std::sqrt(stress2) / fluid.density) / fluid.viscosity;
+        units.largest = std::max(units.largest, y);
+        units.mean += y * face.measure;
+        measure += face.measure;
+      });
   units.largest = ranks.largest(units.largest);
   std::array<double, 2> mean{units.mean, measure};
   ranks.sum(mean);
@@ -144,10 +187,10 @@ WallUnits wall_units(const std::vector<Block<D>>& blocks, const Equations<D>& eq
 
 template WallLoads wall_loads<2>(const std::vector<Block<2>>&, const Equations<2>&,
                                  const std::vector<State<2>>&, const std::string&, const coupler::Vec3&,
-                                 const Ranks&);
+                                 const Ranks&, const std::vector<Field>*);
 template WallLoads wall_loads<3>(const std::vector<Block<3>>&, const Equations<3>&,
                                  const std::vector<State<3>>&, const std::string&, const coupler::Vec3&,
-                                 const Ranks&);
+                                 const Ranks&, const std::vector<Field>*);
 template WallUnits wall_units<2>(const std::vector<Block<2>>&, const Equations<2>&,
                                  const std::vector<State<2>>&, const std::string&, const Ranks&);
 template WallUnits wall_units<3>(const std::vector<Block<3>>&, const Equations<3>&,

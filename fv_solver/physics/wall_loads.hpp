@@ -28,11 +28,13 @@ struct WallLoads {
 };
 
 /// Sums over all walls (wall, slip, symmetry) with this name, of all ranks; moments about `about` [m].
-/// pre: ghosts of q current. comm collective, as wall_units
+/// phi: level set of each block where the water has a surface: a face that it cuts bears the load of its wet
+/// part alone, at that part's centre; air bears none
+/// pre: ghosts of q and phi current. comm collective, as wall_units
 template <int D>
 WallLoads wall_loads(const std::vector<Block<D>>& blocks, const Equations<D>& equations,
                      const std::vector<State<D>>& q, const std::string& wall, const coupler::Vec3& about,
-                     const Ranks& ranks = {});
+                     const Ranks& ranks = {}, const std::vector<Field>* phi = nullptr);
 
 /// Distance of the first cell centres from no-slip walls in wall units, y+ = d sqrt(|tau|/rho0)/nu (F11).
 struct WallUnits {
