@@ -1,7 +1,7 @@
 #include "level_set/band.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <cstdlib>
 
 #include "grid/loops.hpp"
 
@@ -25,6 +25,29 @@ std::vector<std::ptrdiff_t> doors(const Block<D>& block, const Field& stands) {
   return found;
 }
 
+/// Whether the surface lies between the centre of c, in the air, and the wall beyond its face: a film thinner
+/// than half a cell. Where phi is further from 0 here than beyond, its zero lies below the wall.
+template <int D>
+bool film_on(const Block<D>& block, const Field& stands, const Field& phi, std::ptrdiff_t c,
+             std::ptrdiff_t step) {
+  const auto here = static_cast<std::size_t>(c), wall = static_cast<std::size_t>(c + step);
+  return phi[here] >= 0.0 && phi[wall] < 0.0 && phi[here] <= -phi[wall] && stands[wall] == 0.0 &&
+         block.status[wall] != CellStatus::blanked;
+}
+
+/// Whether a film has an end at c: one that goes on as far as the grid does, or to water, has none.
+template <int D>
+bool film_ends(const Block<D>& block, const Field& stands, const Field& phi, std::ptrdiff_t c,
+               std::ptrdiff_t step) {
+  for (const std::ptrdiff_t s : block.extent.stride)
+    for (const std::ptrdiff_t other : {c - s, c + s}) {
+      const auto o = static_cast<std::size_t>(other);
+      if (s == std::abs(step) || stands[o] == 0.0 || phi[o] < 0.0) continue;
+      if (!film_on(block, stands, phi, other, step)) return true;
+    }
+  return false;
+}
+
 /// Whether one of the cells around c, diagonals included, holds water.
 template <int D>
 bool beside_water(const Block<D>& block, const Field& stands, const Field& phi, std::ptrdiff_t c) {
@@ -38,17 +61,21 @@ bool beside_water(const Block<D>& block, const Field& stands, const Field& phi, 
 
 template <int D>
 bool at_surface(const Block<D>& block, const Field& stands, const Field& phi, std::ptrdiff_t c) {
-  const double here = phi[static_cast<std::size_t>(c)];
+  const bool water = phi[static_cast<std::size_t>(c)] < 0.0;
   bool film = false;
-  for (std::size_t d = 0; d < D; ++d)
-    for (const std::ptrdiff_t step : {-block.extent.stride[d], block.extent.stride[d]}) {
+  for (const std::ptrdiff_t stride : block.extent.stride)
+    for (const std::ptrdiff_t step : {-stride, stride}) {
       const auto other = static_cast<std::size_t>(c + step);
-      if ((here < 0.0) == (phi[other] < 0.0)) continue;
+      if (water == (phi[other] < 0.0)) continue;
       if (stands[other] != 0.0) return true;
-      const bool outside_grid = block.status[other] != CellStatus::blanked;
-      film = film || (outside_grid && std::abs(here) <= std::abs(phi[other]));
+      if (water)  // a film of air under a lid
+        film = film || (block.status[other] != CellStatus::blanked &&
+                        -phi[static_cast<std::size_t>(c)] <= phi[other]);
+      else
+        film = film || (film_on(block, stands, phi, c, step) &&
+                        (beside_water(block, stands, phi, c) || !film_ends(block, stands, phi, c, step)));
     }
-  return film && (here < 0.0 || beside_water(block, stands, phi, c));
+  return film;
 }
 
 }  // namespace

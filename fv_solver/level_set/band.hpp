@@ -14,9 +14,9 @@ inline constexpr std::ptrdiff_t k_cells_for_threads = 1000;
 /// layer k + 1 has one in layer k, on both sides of the surface, through joins and periodic faces. Found from
 /// the signs of phi, never from |phi|, so it is right whatever the gradient of phi is. Blanked cells belong
 /// to no layer; fringe and interpolated ones do. A sign that changes towards a ghost that stands for no cell
-/// counts too: a film thinner than half a cell on a wall is part of the surface, and so is its end, where
-/// phi extrapolated has its zero below the wall: taken for a cell further out, it would get the distance to
-/// the film's last piece, and the film would grow by a cell in every step.
+/// counts too: a film thinner than half a cell on a wall is part of the surface where it lies beside water or
+/// goes on to the end of the grid. Elsewhere its end, a layer-0 cell, would be the surface of the cell
+/// beyond, and the film would grow by a cell in every step: there it dries up.
 template <int D>
 class Band {
  public:
