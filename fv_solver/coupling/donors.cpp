@@ -92,21 +92,20 @@ void put(const State<D>& q, const std::vector<std::size_t>& cell, std::size_t fi
 template <int D>
 DonorOffer<D>::DonorOffer(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange) {
   constexpr int k_ghost_layers = 1;
-  std::vector<Field> usable;
   for (const auto& block : blocks) {
-    usable.emplace_back(block.extent.size, 0.0);
+    usable_.emplace_back(block.extent.size, 0.0);
     for (std::size_t c = 0; c < block.extent.size; ++c) {
       const auto index = block.extent.index(static_cast<std::ptrdiff_t>(c));
       const auto inner = static_cast<std::size_t>(inner_cell<D>(block, index));
-      usable.back()[c] = block.status[inner] == CellStatus::blanked ? 0.0 : 1.0;
+      usable_.back()[c] = block.status[inner] == CellStatus::blanked ? 0.0 : 1.0;
     }
   }
-  exchange.scalar(blocks, usable, ScalarGhosts::cell_data);
+  exchange.scalar(blocks, usable_, ScalarGhosts::cell_data);
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     cells_.emplace_back();
     coupler::DonorPatch patch = donor_patch(blocks[b], k_ghost_layers, cells_.back());
     for (std::size_t i = 0; i < patch.size(); ++i)
-      patch.usable[i] = usable[b][cells_.back()[i]] != 0.0 ? 1 : 0;
+      patch.usable[i] = usable_[b][cells_.back()[i]] != 0.0 ? 1 : 0;
     geometry_.patches.push_back(std::move(patch));
   }
 }
@@ -116,7 +115,7 @@ void DonorOffer<D>::put_state(const Stepper<D>& stepper, coupler::DonorValues& v
   const FreeSurface<D>* surface = stepper.surface();
   values.resize(geometry_.size(), surface != nullptr);
   std::vector<State<D>> continued;
-  if (surface != nullptr) continued = continue_into_air(stepper);
+  if (surface != nullptr) continued = continue_into_air(stepper, usable_);
   const std::vector<State<D>>& state = surface != nullptr ? continued : stepper.state();
   std::size_t first = 0;
   for (std::size_t b = 0; b < cells_.size(); ++b) {

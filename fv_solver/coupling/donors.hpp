@@ -29,6 +29,7 @@ class DonorOffer {
 
  private:
   std::vector<std::vector<std::size_t>> cells_;  // of each block: offsets in the patch's order
+  std::vector<Field> usable_;                    // 0 in blanked cells and ghosts that stand for them
   coupler::DonorGeometry geometry_;
 };
 

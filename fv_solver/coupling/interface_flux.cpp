@@ -42,8 +42,11 @@ template <int D>
 double InterfaceFlux<D>::mass_flux(const Stepper<D>& stepper) const {
   double flux = 0.0;
   std::vector<Field> water(stepper.blocks().size());
-  for (std::size_t b = 0; b < water.size() && stepper.surface() != nullptr && !faces_.empty(); ++b)
-    wet_shares<D>(stepper.blocks()[b], stepper.surface()->phi()[b], water[b]);
+  if (stepper.surface() != nullptr) {
+    for (std::size_t b = 0; b < water.size(); ++b)
+      wet_shares<D>(stepper.blocks()[b], stepper.surface()->phi()[b], water[b]);
+    stepper.exchange().scalar(stepper.blocks(), water, ScalarGhosts::cell_data);
+  }
   for (const Face& f : faces_) {
     const Block<D>& block = stepper.blocks()[f.block];
     const State<D>& q = stepper.state()[f.block];

@@ -52,6 +52,8 @@ void FreeSurface<D>::initialise(std::vector<Block<D>>& blocks, const Exchange<D>
 template <int D>
 void FreeSurface<D>::statuses_changed(std::vector<Block<D>>& blocks, const Exchange<D>& exchange) {
   set_masks(blocks, exchange);
+  budget_.volume =
+      exchange.ranks().sum(water_volume<D>(blocks, set_.phi));  // of the cells solved from now on
 }
 
 template <int D>
@@ -112,7 +114,6 @@ void FreeSurface<D>::end(std::vector<Block<D>>& blocks, const Exchange<D>& excha
     restore_volumes<D>(blocks, exchange, set_.band, set_.patches, start_[0], set_.phi, past_);
   set_masks(blocks, exchange);
   continue_all(blocks, exchange, equations.fluid, q);
-  still_air(blocks, q);
   budget_.add(exchange.ranks().sum(water_volume<D>(blocks, set_.phi)),
               exchange.ranks().sum(inflow_through_openings<D>(blocks, equations, scheme_.dt, set_.phi, q)),
               scheme_.dt);
@@ -159,6 +160,7 @@ void FreeSurface<D>::continue_all(const std::vector<Block<D>>& blocks, const Exc
   exchange.states(blocks, q);
   continue_flow(blocks, exchange, q);
   continue_pressure(blocks, fluid, q);
+  still_air(blocks, q);
   exchange.states(blocks, q);
 }
 

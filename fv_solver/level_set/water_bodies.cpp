@@ -150,7 +150,8 @@ std::vector<double> WaterBodies<D>::open(const std::vector<Block<D>>& blocks, co
     }
     for_each_index<D>({}, block.extent.n, [&](const std::array<int, D>& index) {
       const std::ptrdiff_t c = block.extent.at(index);
-      if (block.status[static_cast<std::size_t>(c)] == CellStatus::fringe) mark(b, c);
+      const CellStatus status = block.status[static_cast<std::size_t>(c)];
+      if (status == CellStatus::fringe || status == CellStatus::forced) mark(b, c);
     });
   }
   ranks.sum(is_open.data(), is_open.size());

@@ -34,9 +34,10 @@ void constrain_pressure(const Particles<D>& particles, const Layers<D>& layers,
     const auto t = static_cast<std::size_t>(k);
     if ((targets.wants[t] & coupler::wants_phi) == 0 || samples.status[t] != coupler::SampleStatus::ok)
       continue;
-    const double share = std::clamp(k_surface_depth + 1.0 + samples.phi[t] / spacing, 0.0, 1.0);
-    if (share == 0.0) continue;
     const Point<D> target = from_vec3<D>({targets.x[t], targets.y[t], targets.z[t]});
+    const auto phi = surface.at(target);  // the sample's own is cut off at the band asked for
+    const double share = phi ? std::clamp(k_surface_depth + 1.0 + *phi / spacing, 0.0, 1.0) : 0.0;
+    if (share == 0.0) continue;
     double product = 0.0, square = 0.0;
     grid.for_each_range(target, kernel.R, [&](std::size_t begin, std::size_t end) {
       for (std::size_t q = begin; q < end; ++q) {
@@ -50,7 +51,7 @@ void constrain_pressure(const Particles<D>& particles, const Layers<D>& layers,
       }
     });
     if (!(square > 0.0)) continue;
-    const double constrained = p0 + samples.phi[t] * product / square;
+    const double constrained = p0 + *phi * product / square;
     samples.p[t] = share * constrained + (1.0 - share) * samples.p[t];
   }
 }

@@ -23,7 +23,11 @@ DomainBox<D> domain_box(const support::Scene& scene) {
 /// rho0 g [N/m^3]
 std::array<double, 3> weight_of(const support::Scene& scene) {
   std::array<double, 3> weight = scene.gravity;
-  for (double& component : weight) component *= scene.fluid.density;
+  for (std::size_t d = 0; d < 3; ++d) {
+    // an image across a period is the particle itself: nothing of its pressure is another place's weight
+    const bool repeats = scene.domain.sides[d][0] == support::Scene::Side::periodic;
+    weight[d] = repeats ? 0.0 : weight[d] * scene.fluid.density;
+  }
   return weight;
 }
 

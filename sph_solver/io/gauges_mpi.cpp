@@ -30,6 +30,7 @@ std::vector<std::int32_t> near_gauges(const std::vector<GaugeConfig>& gauges, co
   std::vector<std::int32_t> chosen;
   for (std::size_t i = 0; i < particles.n_owned; ++i) {
     const auto is_near = [&](const GaugeConfig& gauge) {
+      if (gauge.kind == GaugeConfig::Kind::force_disc) return false;  // reads the walls, not the particles
       const std::size_t n = gauge.kind == GaugeConfig::Kind::elevation ? D - 1 : D;  // a line, or a point
       double r2 = 0.0;
       for (std::size_t d = 0; d < n; ++d) {
