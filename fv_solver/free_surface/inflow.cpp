@@ -2,24 +2,12 @@
 
 #include "boundary/boundary_flux.hpp"
 #include "boundary/line.hpp"
+#include "boundary/opening.hpp"
 #include "grid/loops.hpp"
 #include "level_set/volume.hpp"
 
 namespace littoral::fv {
 namespace {
-
-bool is_opening(Condition condition) {
-  switch (condition) {
-    case Condition::inflow:
-    case Condition::outflow:
-    case Condition::far_field:
-    case Condition::convective:
-    case Condition::state:
-      return true;
-    default:
-      return false;
-  }
-}
 
 /// Part of a boundary face under the surface.
 template <int D>

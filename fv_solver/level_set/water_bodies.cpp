@@ -3,25 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "boundary/opening.hpp"
 #include "grid/loops.hpp"
 #include "level_set/volume.hpp"
 
 namespace littoral::fv {
 namespace {
 
+/// Whether water may pass a window: an opening, or a fringe.
 bool lets_water_through(Condition condition) {
-  switch (condition) {
-    case Condition::inflow:
-    case Condition::outflow:
-    case Condition::far_field:
-    case Condition::convective:
-    case Condition::state:
-    case Condition::fringe:
-    case Condition::overset:
-      return true;
-    default:
-      return false;
-  }
+  return is_opening(condition) || condition == Condition::fringe || condition == Condition::overset;
 }
 
 /// Each marked cell takes the lowest number around until none is lower. Returns whether any was.
