@@ -52,19 +52,15 @@ double StepProblem<D>::norm(const std::vector<Residual<D>>& r) const {
       }
       double row_sum = 0.0, row_volume = 0.0;
       const auto row = static_cast<std::size_t>(block.extent.at(index));
+#pragma omp simd reduction(+ : row_sum, row_volume)
       for (std::size_t c = row; c < row + static_cast<std::size_t>(block.extent.n[0]); ++c) {
-        if (block.solved[c] == 0.0) continue;
-        const double v = block.volume[c];
-        const double h = D == 2 ? std::sqrt(v) : std::cbrt(v);
-        const double per_momentum = 1.0 / (rho0 * v * (time.a0 + equations.speeds.c0 / h));
-        const double e_p = r[b].mass[c] * h / (rho0 * v);
-        double e = e_p * e_p;
-        for (std::size_t k = 0; k < D; ++k) {
-          const double e_u = r[b].momentum[k][c] * per_momentum;
-          e += e_u * e_u;
-        }
-        row_sum += v * e;
-        row_volume += v;
+        const double v = block.volume[c], h = block.width[c];
+        const double momentum_unit = h / (time.a0 * h + equations.speeds.c0);
+        double u2 = 0.0;
+        for (std::size_t k = 0; k < D; ++k) u2 += r[b].momentum[k][c] * r[b].momentum[k][c];
+        const double e = (r[b].mass[c] * r[b].mass[c] * h * h + u2 * momentum_unit * momentum_unit) / v;
+        row_sum += block.solved[c] != 0.0 ? e : 0.0;
+        row_volume += block.solved[c] != 0.0 ? v : 0.0;
       }
       of_row[static_cast<std::size_t>(line)] = {row_sum, row_volume};
     }
@@ -75,7 +71,7 @@ double StepProblem<D>::norm(const std::vector<Residual<D>>& r) const {
   }
   std::array<double, 2> total{sum, volume};
   exchange.ranks().sum(total);
-  return total[1] > 0.0 ? std::sqrt(total[0] / total[1]) : 0.0;
+  return total[1] > 0.0 ? std::sqrt(total[0] / total[1]) / rho0 : 0.0;
 }
 
 template struct StepProblem<2>;

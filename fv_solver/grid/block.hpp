@@ -79,6 +79,7 @@ struct Block {
   VectorField<D> node;                 // [m] node (i, j, k) is the lower corner of cell (i, j, k); ghosts set
   VectorField<D> centre;               // [m] mean of the corners, ghosts included
   Field volume;                        // [m^D] ghosts included (mirrored or periodic)
+  Field width;                         // [m] volume^(1/D)
   std::array<VectorField<D>, D> area;  // [direction][component] [m^(D-1)] lower face, along +direction
   Field reference_pressure;            // [Pa] hydrostatic P(x), ghosts included: see physics/fluid.hpp
   std::vector<CellStatus> status;      // ghosts: fringe

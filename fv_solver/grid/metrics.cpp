@@ -144,6 +144,7 @@ void set_metrics(Block<D>& block) {
   for (auto& direction : block.area)
     for (auto& f : direction) f.assign(e.size, 0.0);
   block.volume.assign(e.size, 0.0);
+  block.width.assign(e.size, 0.0);
   block.status.assign(e.size, CellStatus::fringe);
 
   std::array<int, D> lower, upper;
@@ -159,6 +160,7 @@ void set_metrics(Block<D>& block) {
         block.centre[k][c] += block.node[k][static_cast<std::size_t>(m)] / (1u << D);
     }
     block.volume[c] = cell_volume(block, n);
+    block.width[c] = D == 2 ? std::sqrt(block.volume[c]) : std::cbrt(block.volume[c]);
     for (std::size_t d = 0; d < D; ++d) {
       const Point<D> a = face_area(block, d, n);
       for (std::size_t k = 0; k < D; ++k) block.area[d][k][c] = a[k];

@@ -17,11 +17,12 @@ Anderson::Anderson(int depth, std::vector<double> weights, const Ranks& ranks)
     for (auto* field : {&entry.r, &entry.d, &entry.way}) field->assign(weights_.size(), 0.0F);
 }
 
-void Anderson::mix(const std::vector<double>& r, std::vector<double>& d) {
+template <class Real>
+void Anderson::mix(const std::vector<Real>& r, std::vector<Real>& d) {
   if (depth_ == 0) return;
   const auto n = static_cast<std::ptrdiff_t>(r.size());
-  const double* __restrict now_r = r.data();
-  double* __restrict now_d = d.data();
+  const Real* __restrict now_r = r.data();
+  Real* __restrict now_d = d.data();
   const float* __restrict w = weights_.data();
   Entry& first = entry_[newest_];
   Entry& second = entry_[1 - newest_];
@@ -35,7 +36,7 @@ void Anderson::mix(const std::vector<double>& r, std::vector<double>& d) {
       double a11 = 0.0, a12 = 0.0, a22 = 0.0, b1 = 0.0, b2 = 0.0;
 #pragma omp simd reduction(+ : a11, a12, a22, b1, b2)
       for (std::ptrdiff_t i = begin; i < end; ++i) {
-        const double now = now_r[i], weight = static_cast<double>(w[i]);
+        const double now = static_cast<double>(now_r[i]), weight = static_cast<double>(w[i]);
         const double d1 = now - static_cast<double>(r1[i]), d2 = now - static_cast<double>(r2[i]);
         a11 += weight * d1 * d1;
         a12 += weight * d1 * d2;
@@ -67,11 +68,11 @@ void Anderson::mix(const std::vector<double>& r, std::vector<double>& d) {
   const bool one = known_ > 0, two = known_ > 1;  // what is not known yet may be anything
 #pragma omp parallel for simd schedule(static) if (n > k_worth_threads)
   for (std::ptrdiff_t i = 0; i < n; ++i) {
-    const double own = now_d[i];
+    const auto own = static_cast<double>(now_d[i]);
     const double step1 = static_cast<double>(way1[i]) + own - static_cast<double>(d1[i]);
     const double step2 = static_cast<double>(way2[i]) + own - static_cast<double>(d2[i]);
     const double change = own - (one ? gamma1 * step1 : 0.0) - (two ? gamma2 * step2 : 0.0);
-    now_d[i] = change;
+    now_d[i] = static_cast<Real>(change);
     way1[i] += static_cast<float>(change);
     way2[i] = static_cast<float>(change);
     d2[i] = static_cast<float>(own);
@@ -80,5 +81,8 @@ void Anderson::mix(const std::vector<double>& r, std::vector<double>& d) {
   newest_ = 1 - newest_;
   known_ = std::min(known_ + 1, depth_);
 }
+
+template void Anderson::mix(const std::vector<float>&, std::vector<float>&);
+template void Anderson::mix(const std::vector<double>&, std::vector<double>&);
 
 }  // namespace littoral::fv

@@ -22,7 +22,8 @@ class Anderson {
   /// of it before it comes again. in    r residual at the present unknowns, d the preconditioned correction
   /// out   d the change towards the next iterate
   /// comm collective: the unknowns are those of all ranks; OpenMP inside
-  void mix(const std::vector<double>& r, std::vector<double>& d);
+  template <class Real>
+  void mix(const std::vector<Real>& r, std::vector<Real>& d);
   void forget() { known_ = 0; }
 
  private:

@@ -54,35 +54,39 @@ struct FaceState {
 template <int D, class T, class Area>
 inline void face_jacobian(const Area& area, const T& volume, const FaceState<D, T>& left,
                           const FaceState<D, T>& right, const CorrectionPhysics<D>& physics,
-                          SmallMatrix<D, T>& by_left, SmallMatrix<D, T>& by_right) {
+                          const MassSpeedOf<LaneReal<T>>& mass_speed, SmallMatrix<D, T>& by_left,
+                          SmallMatrix<D, T>& by_right) {
+  using Real = LaneReal<T>;
+  constexpr Real half = Real(0.5);
   T s2{}, flow{};
   for (std::size_t k = 0; k < D; ++k) {
     s2 += area[k] * area[k];
-    flow += 0.5 * (left.u[k] + right.u[k]) * area[k];
+    flow += half * (left.u[k] + right.u[k]) * area[k];
   }
   // a face collapsed to an axis passes nothing: all terms but the first carry its area
-  constexpr double k_no_area = 1e-300;
+  constexpr Real k_no_area = std::numeric_limits<Real>::min();
   s2 = s2 > k_no_area ? s2 : k_no_area + T{};
   const T s = square_root(s2);
-  const double c0 = physics.speeds.c0;
-  const double density_by_p = c0 * physics.fluid.inverse_c2;  // d(rho/rho0)/dP
+  const auto c0 = static_cast<Real>(physics.speeds.c0);
+  const auto density_by_p =
+      static_cast<Real>(physics.speeds.c0 * physics.fluid.inverse_c2);  // d(rho/rho0)/dP
   const T h = volume / s;
-  const T pressure_term = 0.5 * c0 * s * physics.mass_speed_between_cells().inverse(h);
+  const T pressure_term = half * c0 * s * mass_speed.inverse(h);
   const T zero{};
-  const T out = flow > 0.0 ? flow : zero, in = flow > 0.0 ? zero : flow;
+  const T out = flow > zero ? flow : zero, in = flow > zero ? zero : flow;
 
   // dm/rho0 by the scaled unknowns
   T m_left[D + 1], m_right[D + 1], upwind[D];
-  for (std::size_t k = 0; k < D; ++k) upwind[k] = flow >= 0.0 ? left.u[k] : right.u[k];
+  for (std::size_t k = 0; k < D; ++k) upwind[k] = flow >= zero ? left.u[k] : right.u[k];
   m_left[0] = pressure_term + density_by_p * out;
   m_right[0] = density_by_p * in - pressure_term;
-  for (std::size_t k = 0; k < D; ++k) m_left[k + 1] = m_right[k + 1] = 0.5 * area[k];
+  for (std::size_t k = 0; k < D; ++k) m_left[k + 1] = m_right[k + 1] = half * area[k];
 
-  const T per_area2 = physics.fluid.viscosity / volume;
+  const T per_area2 = static_cast<Real>(physics.fluid.viscosity) / volume;
   const T friction = per_area2 * s2;
   const T carry_left = out + friction;
   const T carry_right = in - friction;
-  const T along_normal_per_s2 = 0.5 * c0 / s + per_area2;
+  const T along_normal_per_s2 = half * c0 / s + per_area2;
   for (std::size_t j = 0; j <= D; ++j) {
     by_left[0][j] = c0 * m_left[j];
     by_right[0][j] = c0 * m_right[j];
@@ -92,8 +96,8 @@ inline void face_jacobian(const Area& area, const T& volume, const FaceState<D, 
       by_left[i + 1][j] = upwind[i] * m_left[j];
       by_right[i + 1][j] = upwind[i] * m_right[j];
     }
-    by_left[i + 1][0] += 0.5 * c0 * area[i];
-    by_right[i + 1][0] += 0.5 * c0 * area[i];
+    by_left[i + 1][0] += half * c0 * area[i];
+    by_right[i + 1][0] += half * c0 * area[i];
     by_left[i + 1][i + 1] += carry_left;
     by_right[i + 1][i + 1] += carry_right;
     for (std::size_t j = 0; j < D; ++j) {
@@ -185,7 +189,8 @@ inline SmallMatrix<D> boundary_jacobian(EdgeCondition condition, const std::arra
       // linear from the cell through the known value: the ghost's correction is `image` times the cell's
       const double image = -(1.0 - imposed_distance) / (1.0 + imposed_distance);
       SmallMatrix<D> by_ghost;
-      face_jacobian<D, double>(area, volume, inside, inside, physics, block, by_ghost);
+      face_jacobian<D, double>(area, volume, inside, inside, physics, physics.mass_speed_between_cells(),
+                               block, by_ghost);
       for (std::size_t i = 0; i <= D; ++i)
         for (std::size_t j = 0; j <= D; ++j) block[i][j] += image * by_ghost[i][j];
       break;

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
+#include <utility>
 
 namespace littoral::fv {
 
@@ -48,7 +50,19 @@ inline void load(const Real* values, const std::array<std::ptrdiff_t, k_lanes>& 
   }
 }
 
-/// values[first[l]] = x[l]
+/// The lanes of x at every second place, the others as they were.
+inline void set_every_second(const Lanes<float>& x, Lanes<float>& low, Lanes<float>& high) {
+  typedef std::int32_t Mask __attribute__((vector_size(k_lanes * sizeof(std::int32_t))));
+  low = __builtin_shuffle(low, x, Mask{8, 1, 9, 3, 10, 5, 11, 7});
+  high = __builtin_shuffle(high, x, Mask{12, 1, 13, 3, 14, 5, 15, 7});
+}
+inline void set_every_second(const Lanes<double>& x, Lanes<double>& low, Lanes<double>& high) {
+  typedef std::int64_t Mask __attribute__((vector_size(k_lanes * sizeof(std::int64_t))));
+  low = __builtin_shuffle(low, x, Mask{8, 1, 9, 3, 10, 5, 11, 7});
+  high = __builtin_shuffle(high, x, Mask{12, 1, 13, 3, 14, 5, 15, 7});
+}
+
+/// values[first[l]] = x[l]; what lies between may be written by other threads meanwhile
 template <LanePattern S, class Real>
 inline void store(const Lanes<Real>& x, const std::array<std::ptrdiff_t, k_lanes>& first, Real* values) {
   if constexpr (S == LanePattern::one)
@@ -59,13 +73,45 @@ inline void store(const Lanes<Real>& x, const std::array<std::ptrdiff_t, k_lanes
     for (std::size_t l = 0; l < k_lanes; ++l) values[first[l]] = x[l];
 }
 
-inline double square_root(double x) { return std::sqrt(x); }
-inline Lanes<double> square_root(const Lanes<double>& x) {
-  return Lanes<double>{std::sqrt(x[0]), std::sqrt(x[1]), std::sqrt(x[2]), std::sqrt(x[3]),
-                       std::sqrt(x[4]), std::sqrt(x[5]), std::sqrt(x[6]), std::sqrt(x[7])};
+/// The same where nobody writes what lies between: it is stored as it was.
+template <LanePattern S, class Real>
+inline void store_between(const Lanes<Real>& x, const std::array<std::ptrdiff_t, k_lanes>& first,
+                          Real* values) {
+  if constexpr (S == LanePattern::two) {
+    Lanes<Real> low, high;
+    std::memcpy(&low, values + first[0], sizeof low);
+    std::memcpy(&high, values + first[0] + k_lanes, sizeof high);
+    set_every_second(x, low, high);
+    std::memcpy(values + first[0], &low, sizeof low);
+    std::memcpy(values + first[0] + k_lanes, &high, sizeof high);
+  } else {
+    store<S>(x, first, values);
+  }
 }
+
+inline double square_root(double x) { return std::sqrt(x); }
+template <class V>
+inline V square_root(const V& x) {
+  return V{std::sqrt(x[0]), std::sqrt(x[1]), std::sqrt(x[2]), std::sqrt(x[3]),
+           std::sqrt(x[4]), std::sqrt(x[5]), std::sqrt(x[6]), std::sqrt(x[7])};
+}
+
+/// The type of one number of T, a number or lanes of them.
+template <class T>
+struct LaneRealOf {
+  using type = std::decay_t<decltype(std::declval<T&>()[0])>;
+};
+template <>
+struct LaneRealOf<double> {
+  using type = double;
+};
+template <class T>
+using LaneReal = typename LaneRealOf<T>::type;
 
 inline void convert(const Lanes<double>& x, Lanes<float>& y) { y = __builtin_convertvector(x, Lanes<float>); }
 inline void convert(const Lanes<double>& x, Lanes<double>& y) { y = x; }
+inline void convert(const Lanes<float>& x, Lanes<double>& y) {
+  y = __builtin_convertvector(x, Lanes<double>);
+}
 
 }  // namespace littoral::fv

@@ -62,10 +62,21 @@ void narrow(const SmallMatrix<D, Lanes<double>>& a, SmallMatrix<D, V>& b) {
     for (std::size_t j = 0; j <= D; ++j) convert(a[i][j], b[i][j]);
 }
 
-template <int D>
-void set_lane(SmallMatrix<D, Lanes<double>>& a, std::size_t lane, const SmallMatrix<D>& b) {
+/// a += b, which may be narrower
+template <int D, class V>
+void add_wide(SmallMatrix<D, Lanes<double>>& a, const SmallMatrix<D, V>& b) {
   for (std::size_t i = 0; i <= D; ++i)
-    for (std::size_t j = 0; j <= D; ++j) a[i][j][lane] = b[i][j];
+    for (std::size_t j = 0; j <= D; ++j) {
+      Lanes<double> wide;
+      convert(b[i][j], wide);
+      a[i][j] += wide;
+    }
+}
+
+template <int D, class V>
+void set_lane(SmallMatrix<D, V>& a, std::size_t lane, const SmallMatrix<D>& b) {
+  for (std::size_t i = 0; i <= D; ++i)
+    for (std::size_t j = 0; j <= D; ++j) a[i][j][lane] = static_cast<LaneReal<V>>(b[i][j]);
 }
 
 /// The free surface between cell c, which holds water, and the air beyond its face on `side`.
@@ -99,7 +110,7 @@ SurfaceJacobian<D> surface_face(const LevelGrid<D>& grid, const State<D>& state,
 template <int D, class Real>
 struct LineOperator<D, Real>::Line {
   std::array<int, D> index[k_lanes];  // of each lane's cell
-  Wide diagonal, lower, upper, cross[k_cross];
+  Wide diagonal, lower, upper;
   Wide by_left, by_right;     // through the upper face of the cell before, where it is an inner one
   std::vector<Wide> back, z;  // inverse * upper; response to the last cell of a cyclic line
 
@@ -114,6 +125,7 @@ void LineOperator<D, Real>::build_bundle(const LevelGrid<D>& grid, const State<D
   const auto dir = static_cast<std::size_t>(layout_.direction);
   const auto& first = layout_.bundles[bundle].first;
   for (std::size_t l = 0; l < k_lanes; ++l) line.index[l] = grid.extent.index(first[l]);
+  const MassSpeed mass_speed = physics.mass_speed_between_cells();
   unsigned at_edge[D][2] = {};  // lanes whose cells lie beside a face of the block, across the lines
   for (std::size_t d = 0; d < D; ++d)
     for (std::size_t l = 0; l < k_lanes; ++l) {
@@ -144,7 +156,7 @@ void LineOperator<D, Real>::build_bundle(const LevelGrid<D>& grid, const State<D
     for (std::size_t l = 0; !grid.beside_air.empty() && l < k_lanes; ++l)
       if (grid.beside_air[static_cast<std::size_t>(first[l] + shift)] != 0) wet_lanes |= 1u << l;
     n_behind = 0;
-    const auto set_surface = [&](std::size_t d, std::size_t side, Wide& own, Wide& neighbour) {
+    const auto set_surface = [&](std::size_t d, std::size_t side, auto& own, auto& neighbour) {
       const std::ptrdiff_t step = (side == 0 ? -1 : 1) * grid.extent.stride[d];
       for (std::size_t l = 0; l < k_lanes; ++l) {
         const std::ptrdiff_t c = first[l] + shift;
@@ -158,65 +170,88 @@ void LineOperator<D, Real>::build_bundle(const LevelGrid<D>& grid, const State<D
         behind[n_behind++] = {l, d, side, face.behind_p};
       }
     };
-    for (std::size_t d = 0, across = 0; d < D; ++d) {
-      for (std::size_t side = 0; side < 2; ++side) {
-        const bool along = d == dir, end = m == (side == 0 ? 0 : layout_.length - 1);
-        Wide& neighbour = along ? (side == 0 ? line.lower : line.upper) : line.cross[2 * across + side];
-        if (along && side == 0 && !end) {  // computed from the other side
-          Wide own = negative<D>(line.by_right);
-          neighbour = negative<D>(line.by_left);
-          if (wet_lanes != 0) set_surface(d, side, own, neighbour);
-          add<D>(line.diagonal, own);
-          continue;
-        }
-        const std::ptrdiff_t step = (side == 0 ? -1 : 1) * grid.extent.stride[d];
-        const std::ptrdiff_t face = side == 0 ? shift : shift + step;
-        V area[D], beyond;
-        for (std::size_t k = 0; k < D; ++k) load<S>(grid.area[d][k].data() + face, first, area[k]);
-        load<S>(grid.volume.data() + shift + step, first, beyond);
-        const FaceState<D, V> there = velocity(shift + step);
-        const V dual = 0.5 * (volume + beyond);
-        Wide by_left, by_right, own;
-        if (side == 0) {
-          face_jacobian<D>(area, dual, there, here, physics, by_left, by_right);
-          own = negative<D>(by_right);
-          neighbour = negative<D>(by_left);
-        } else {
-          face_jacobian<D>(area, dual, here, there, physics, by_left, by_right);
-          own = by_left;
-          neighbour = by_right;
-        }
-        const unsigned edge = along ? (end ? (1u << k_lanes) - 1u : 0u) : at_edge[d][side];
-        for (std::size_t l = 0; edge != 0 && l < k_lanes; ++l) {
-          if (!(edge >> l & 1u)) continue;
-          const EdgeCondition condition =
-              grid.edge[d][side][grid.face_index(static_cast<int>(d), line.index[l])];
-          if (condition == EdgeCondition::link) continue;
-          std::array<double, D> outward;
-          FaceState<D> inside;
-          for (std::size_t k = 0; k < D; ++k) {
-            outward[k] = side == 0 ? -area[k][l] : area[k][l];
-            inside.u[k] = here.u[k][l];
-          }
-          set_lane<D>(own, l,
-                      boundary_jacobian<D>(condition, outward, volume[l], inside, physics, grid.far_speed,
-                                           grid.imposed_distance[d]));
-          set_lane<D>(neighbour, l, SmallMatrix<D>{});
-        }
-        if (wet_lanes != 0) set_surface(d, side, own, neighbour);
-        add<D>(line.diagonal, own);
-        if (along && side == 1) {
-          line.by_left = by_left;
-          line.by_right = by_right;
-        }
+    // the face on a side: what it gives to the cell's own block, and the neighbour's; by_left, by_right as of
+    // a face between cells
+    const auto set_face = [&](std::size_t d, std::size_t side, unsigned edge, auto& own, auto& neighbour,
+                              auto& by_left, auto& by_right) {
+      using W = std::decay_t<decltype(own[0][0])>;
+      const std::ptrdiff_t step = (side == 0 ? -1 : 1) * grid.extent.stride[d];
+      const std::ptrdiff_t face = side == 0 ? shift : shift + step;
+      V area[D], beyond;
+      for (std::size_t k = 0; k < D; ++k) load<S>(grid.area[d][k].data() + face, first, area[k]);
+      load<S>(grid.volume.data() + shift + step, first, beyond);
+      W narrow_area[D], dual;
+      FaceState<D, W> inside, outside;
+      const FaceState<D, V> there = velocity(shift + step);
+      for (std::size_t k = 0; k < D; ++k) {
+        convert(area[k], narrow_area[k]);
+        convert(here.u[k], inside.u[k]);
+        convert(there.u[k], outside.u[k]);
       }
-      across += d == dir ? 0 : 1;
+      convert(0.5 * (volume + beyond), dual);
+      const auto speed = mass_speed.template as<LaneReal<W>>();
+      if (side == 0) {
+        face_jacobian<D>(narrow_area, dual, outside, inside, physics, speed, by_left, by_right);
+        own = negative<D>(by_right);
+        neighbour = negative<D>(by_left);
+      } else {
+        face_jacobian<D>(narrow_area, dual, inside, outside, physics, speed, by_left, by_right);
+        own = by_left;
+        neighbour = by_right;
+      }
+      for (std::size_t l = 0; edge != 0 && l < k_lanes; ++l) {
+        if (!(edge >> l & 1u)) continue;
+        const EdgeCondition condition =
+            grid.edge[d][side][grid.face_index(static_cast<int>(d), line.index[l])];
+        if (condition == EdgeCondition::link) continue;
+        std::array<double, D> outward;
+        FaceState<D> at_face;
+        for (std::size_t k = 0; k < D; ++k) {
+          outward[k] = side == 0 ? -area[k][l] : area[k][l];
+          at_face.u[k] = here.u[k][l];
+        }
+        set_lane<D>(own, l,
+                    boundary_jacobian<D>(condition, outward, volume[l], at_face, physics, grid.far_speed,
+                                         grid.imposed_distance[d]));
+        set_lane<D>(neighbour, l, SmallMatrix<D>{});
+      }
+      if (wet_lanes != 0) set_surface(d, side, own, neighbour);
+    };
+    // along the line in double (see eliminate); across it Real is enough
+    for (std::size_t side = 0; side < 2; ++side) {
+      const bool end = m == (side == 0 ? 0 : layout_.length - 1);
+      Wide& neighbour = side == 0 ? line.lower : line.upper;
+      Wide own, by_left, by_right;
+      if (side == 0 && !end) {  // computed from the other side
+        own = negative<D>(line.by_right);
+        neighbour = negative<D>(line.by_left);
+        if (wet_lanes != 0) set_surface(dir, side, own, neighbour);
+      } else {
+        set_face(dir, side, end ? (1u << k_lanes) - 1u : 0u, own, neighbour, by_left, by_right);
+      }
+      add<D>(line.diagonal, own);
+      if (side == 1) {
+        line.by_left = by_left;
+        line.by_right = by_right;
+      }
     }
+    Matrix* cross = forward_[slot(bundle, m)].cross;
+    Matrix beside{};
+    for (std::size_t d = 0, c = 0; d < D; ++d)
+      for (std::size_t side = 0; side < 2 && d != dir; ++side, ++c) {
+        Matrix own, by_left, by_right;
+        set_face(d, side, at_edge[d][side], own, cross[c], by_left, by_right);
+        add<D>(beside, own);
+      }
+    add_wide<D>(line.diagonal, beside);
     for (std::size_t b = 0; b < n_behind; ++b) {
       const auto& [l, d, side, by_p] = behind[b];
-      const std::size_t across = d < dir ? d : d - 1;
-      Wide& opposite = d == dir ? (side == 0 ? line.upper : line.lower) : line.cross[2 * across + 1 - side];
-      for (std::size_t i = 0; i < D; ++i) opposite[i + 1][0][l] += by_p[i];
+      Wide& along = side == 0 ? line.upper : line.lower;
+      for (std::size_t i = 0; i < D; ++i)
+        if (d == dir)
+          along[i + 1][0][l] += by_p[i];
+        else
+          cross[2 * (d < dir ? d : d - 1) + 1 - side][i + 1][0][l] += static_cast<Real>(by_p[i]);
     }
     V forcing{};
     if (!grid.forcing.empty()) load<S>(grid.forcing.data() + shift, first, forcing);
@@ -234,7 +269,7 @@ void LineOperator<D, Real>::build_bundle(const LevelGrid<D>& grid, const State<D
       for (std::size_t i = 0; i <= D; ++i) one[i][i] = 1.0;
       set_lane<D>(line.diagonal, l, one);
       for (Wide* a : {&line.lower, &line.upper}) set_lane<D>(*a, l, SmallMatrix<D>{});
-      for (Wide& a : line.cross) set_lane<D>(a, l, SmallMatrix<D>{});
+      for (std::size_t c = 0; c < k_cross; ++c) set_lane<D>(cross[c], l, SmallMatrix<D>{});
     }
     eliminate(bundle, m, line);
   }
@@ -251,7 +286,6 @@ void LineOperator<D, Real>::eliminate(std::size_t bundle, int k, Line& line) {
   narrow<D>(line.diagonal, diagonal_[at]);
   narrow<D>(line.upper, upper_[at]);
   narrow<D>(line.lower, forward.lower);
-  for (std::size_t c = 0; c < k_cross; ++c) narrow<D>(line.cross[c], forward.cross[c]);
   if (layout_.cyclic && k == layout_.length - 1) return;  // the cut cell; see close
   Wide pivot = line.diagonal;
   if (k > 0) subtract<D>(pivot, product<D>(line.lower, line.back[m - 1]));

@@ -35,7 +35,7 @@ LineLayout line_layout(const LevelGrid<D>& grid, int direction);
 
 /// Directions in which cells are so thin that point-wise smoothing fails: the stiffest first; further ones
 /// only where more than a twentieth of the cells are at least twice as thin there as in those chosen.
-/// On an isotropic grid: a direction that is not periodic, the last if there is a choice.
+/// On an isotropic grid: a direction that is not periodic, direction 1 unless the last is much longer.
 template <int D>
 std::vector<int> stiff_directions(const LevelGrid<D>& grid);
 

@@ -165,7 +165,10 @@ void LineOperator<D, Real>::smooth_bundle(std::size_t bundle, const Correction<D
     for (std::size_t i = 0; i < N; ++i) y[n - 1].x[i] = x[i];
     for (int k = 0; k < n - 1; ++k) subtract_product<D>(closing_[slot(bundle, k)], x, y[k].x);
   }
-  for (int k = 0; k < n; ++k) store_all<S>(y[k].x, first, k * layout_.stride, e.q);
+  // no two lines of a colour are neighbours, and only one colour is written at a time
+  for (int k = 0; k < n; ++k)
+    for (std::size_t i = 0; i < N; ++i)
+      store_between<S>(y[k].x[i], first, e.q[i].data() + k * layout_.stride);
 }
 
 template <int D, class Real>

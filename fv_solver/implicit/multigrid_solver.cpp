@@ -70,7 +70,7 @@ struct MultigridSolver<D, Real>::Levels {
   std::vector<Residual<D>> rows;
   std::vector<double> weights;  // 1/V for each unknown
   Anderson anderson;
-  std::vector<double> r, d;  // scaled, flat: cells of block 0, then of block 1, ...; D+1 values a cell
+  std::vector<Real> r, d;  // scaled, flat: cells of block 0, then of block 1, ...; D+1 values a cell
   Ranks ranks;
   double total_volume = 0.0;  // of all ranks
 
@@ -131,7 +131,7 @@ struct MultigridSolver<D, Real>::Levels {
       auto& right = multigrid.right_side(b);
       for (std::size_t i = 0; i <= D; ++i) {
         const double row = i == 0 ? per_mass * rows[b].mass[c] : per_momentum * rows[b].momentum[i - 1][c];
-        r[at + i] = row;
+        r[at + i] = static_cast<Real>(row);
         right.q[i][c] = static_cast<Real>(-row);
       }
     });
@@ -140,24 +140,24 @@ struct MultigridSolver<D, Real>::Levels {
   void read_correction() {
     for_each_solved([&](std::size_t b, std::size_t c, std::size_t at) {
       const auto& e = multigrid.correction(b);
-      for (std::size_t i = 0; i <= D; ++i) d[at + i] = static_cast<double>(e.q[i][c]);
+      for (std::size_t i = 0; i <= D; ++i) d[at + i] = e.q[i][c];
     });
     if (!multigrid.floating()) return;
     const auto n = static_cast<std::ptrdiff_t>(d.size() / (D + 1));
     const auto sum =
         ordered_sums<1>(n, [&](std::ptrdiff_t begin, std::ptrdiff_t end, std::array<double, 1>& s) {
           for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k)
-            s[0] += d[k * (D + 1)] / weights[k * (D + 1)];
+            s[0] += static_cast<double>(d[k * (D + 1)]) / weights[k * (D + 1)];
         });
     const double mean = ranks.sum(sum[0]) / total_volume;  // the level of p is free: keep it where it was
-    for (std::size_t k = 0; k < d.size(); k += D + 1) d[k] -= mean;
+    for (std::size_t k = 0; k < d.size(); k += D + 1) d[k] -= static_cast<Real>(mean);
   }
 
   void apply(std::vector<State<D>>& state, const CorrectionPhysics<D>& physics) const {
     const double p_unit = physics.fluid.density * physics.speeds.c0;
     for_each_solved([&](std::size_t b, std::size_t c, std::size_t at) {
-      state[b].p[c] += p_unit * d[at];
-      for (std::size_t i = 0; i < D; ++i) state[b].u[i][c] += d[at + 1 + i];
+      state[b].p[c] += p_unit * static_cast<double>(d[at]);
+      for (std::size_t i = 0; i < D; ++i) state[b].u[i][c] += static_cast<double>(d[at + 1 + i]);
     });
   }
 

@@ -53,6 +53,7 @@ class Cutter {
       for (std::size_t d = 0; d < D; ++d) copy(from.area[d][k], block.area[d][k]);
     }
     copy(from.volume, block.volume);
+    copy(from.width, block.width);
     block.status.assign(block.extent.size, CellStatus::fringe);
     for_each_place<D>(block.extent, from.extent, piece.lower, false,
                       [&](std::size_t here, std::size_t there) { block.status[here] = from.status[there]; });

@@ -22,12 +22,17 @@ inline double upwinding(FluxScheme scheme) { return scheme == FluxScheme::upwind
 /// The wave speed of the mass flux (F8), c_p = max(c0, kappa h/dt, 2 nu/h): pressure is damped by as much as
 /// the momentum's inertia or friction, whichever is larger, leaves of the compact Laplacian of the projected
 /// equations. Residual, Jacobian and coarse levels use the same rule, each with its own h.
-struct MassSpeed {
-  double slowest;    // [s/m] 1/c0
-  double inertia;    // [1/s] kappa/dt
-  double diffusion;  // [m^2/s] 2 nu
+template <class Real>
+struct MassSpeedOf {
+  Real slowest;    // [s/m] 1/c0
+  Real inertia;    // [1/s] kappa/dt
+  Real diffusion;  // [m^2/s] 2 nu
+  template <class Other>
+  MassSpeedOf<Other> as() const {
+    return {static_cast<Other>(slowest), static_cast<Other>(inertia), static_cast<Other>(diffusion)};
+  }
   /// 1/c_p [s/m].   h: volume of the face's dual cell over the face's measure [m]
-  /// T: a number, or several of them in lanes
+  /// T: Real, or several of them in lanes
   template <class T>
   T inverse(const T& h) const {
     const T wide = inertia * h * h, thin = diffusion + T{}, at_most = slowest + T{};
@@ -35,6 +40,7 @@ struct MassSpeed {
     return slow < at_most ? slow : at_most;
   }
 };
+using MassSpeed = MassSpeedOf<double>;
 
 /// The two speeds of the Riemann problem (F8): c0 = sqrt(beta) in the momentum's dissipation, c_p in the mass
 /// flux.

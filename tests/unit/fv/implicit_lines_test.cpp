@@ -113,7 +113,7 @@ TEST(ImplicitLinesTest, FaceJacobianIsTheDerivativeOfItsFlux) {
   left.u = {1.0, 0.4, -0.2};
   right.u = {0.8, 0.5, 0.1};
   SmallMatrix<3> by_left, by_right;
-  face_jacobian<3>(area, volume, left, right, physics, by_left, by_right);
+  face_jacobian<3>(area, volume, left, right, physics, physics.mass_speed_between_cells(), by_left, by_right);
   // F9's first-order flux about this state, with the carried velocity and the mass flow's centre frozen
   const double flow0 = 0.5 * (1.8 * 0.3 - 0.9 * 0.2 - 0.1 * 0.4);
   const double s = std::sqrt(0.3 * 0.3 + 0.2 * 0.2 + 0.4 * 0.4);
