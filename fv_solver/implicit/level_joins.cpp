@@ -22,10 +22,14 @@ bool may_halve(const JoinSide<D>& j, std::size_t d, const std::vector<BlockShape
 
 template <int D>
 std::vector<std::array<int, D>> joint_ratios(const std::vector<BlockShape<D>>& shapes,
-                                             const std::vector<JoinSide<D>>& joins) {
+                                             const std::vector<JoinSide<D>>& joins,
+                                             const std::vector<std::array<bool, D>>& held) {
   std::vector<std::array<int, D>> ratios;
-  for (const BlockShape<D>& shape : shapes)
-    ratios.push_back(coarsening_ratio<D>(shape.extent.n, shape.periodic));
+  for (std::size_t b = 0; b < shapes.size(); ++b) {
+    ratios.push_back(coarsening_ratio<D>(shapes[b].extent.n, shapes[b].periodic));
+    for (std::size_t d = 0; d < D; ++d)
+      if (!held.empty() && held[b][d]) ratios.back()[d] = 1;
+  }
   for (bool changed = true; changed;) {
     changed = false;
     for (const JoinSide<D>& j : joins)
@@ -73,9 +77,11 @@ std::vector<JoinSide<D>> coarse_joins(const std::vector<JoinSide<D>>& joins,
 }
 
 template std::vector<std::array<int, 2>> joint_ratios<2>(const std::vector<BlockShape<2>>&,
-                                                         const std::vector<JoinSide<2>>&);
+                                                         const std::vector<JoinSide<2>>&,
+                                                         const std::vector<std::array<bool, 2>>&);
 template std::vector<std::array<int, 3>> joint_ratios<3>(const std::vector<BlockShape<3>>&,
-                                                         const std::vector<JoinSide<3>>&);
+                                                         const std::vector<JoinSide<3>>&,
+                                                         const std::vector<std::array<bool, 3>>&);
 template std::vector<BlockShape<2>> coarse_shapes<2>(const std::vector<BlockShape<2>>&,
                                                      const std::vector<std::array<int, 2>>&);
 template std::vector<BlockShape<3>> coarse_shapes<3>(const std::vector<BlockShape<3>>&,

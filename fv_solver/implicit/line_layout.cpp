@@ -86,22 +86,27 @@ LineLayout line_layout(const LevelGrid<D>& grid, int direction) {
 }
 
 template <int D>
-std::vector<int> stiff_directions(const LevelGrid<D>& grid) {
-  // thickness h_d = V/S_d; coupling through the faces of direction d goes with 1/h_d^2
-  std::array<std::vector<double>, D> thickness;
-  for_each_cell<D>(grid.extent, [&](const auto&, std::ptrdiff_t c) {
-    if (!grid.solved(c)) return;
-    for (std::size_t d = 0; d < D; ++d) {
-      double s2 = 0.0;
-      for (std::size_t k = 0; k < D; ++k) {
-        const double a = 0.5 * (grid.area[d][k][static_cast<std::size_t>(c)] +
-                                grid.area[d][k][static_cast<std::size_t>(c + grid.extent.stride[d])]);
-        s2 += a * a;
-      }
-      thickness[d].push_back(grid.volume[static_cast<std::size_t>(c)] / std::max(std::sqrt(s2), 1e-300));
+std::array<double, D> thickness(const LevelGrid<D>& grid, std::ptrdiff_t c) {
+  std::array<double, D> h;
+  for (std::size_t d = 0; d < D; ++d) {
+    double s2 = 0.0;
+    for (std::size_t k = 0; k < D; ++k) {
+      const double a = 0.5 * (grid.area[d][k][static_cast<std::size_t>(c)] +
+                              grid.area[d][k][static_cast<std::size_t>(c + grid.extent.stride[d])]);
+      s2 += a * a;
     }
+    h[d] = grid.volume[static_cast<std::size_t>(c)] / std::max(std::sqrt(s2), 1e-300);
+  }
+  return h;
+}
+
+template <int D>
+std::vector<int> stiff_directions(const LevelGrid<D>& grid) {
+  std::vector<std::array<double, D>> h;
+  for_each_cell<D>(grid.extent, [&](const auto&, std::ptrdiff_t c) {
+    if (grid.solved(c)) h.push_back(thickness<D>(grid, c));
   });
-  const std::size_t n = thickness[0].size();
+  const std::size_t n = h.size();
   std::vector<int> chosen;
   std::vector<double> thinnest(n, 0.0);  // of the chosen directions
   while (chosen.size() < D) {
@@ -112,11 +117,7 @@ std::vector<int> stiff_directions(const LevelGrid<D>& grid) {
       if (grid.extent.n[s] < 2 || std::find(chosen.begin(), chosen.end(), d) != chosen.end()) continue;
       double gain = 0.0;
       if (chosen.empty()) {  // mean logarithm of the anisotropy
-        for (std::size_t i = 0; i < n; ++i) {
-          double thickest = 0.0;
-          for (std::size_t e = 0; e < D; ++e) thickest = std::max(thickest, thickness[e][i]);
-          gain += std::log(thickest / thickness[s][i]);
-        }
+        for (const auto& cell : h) gain += std::log(*std::max_element(cell.begin(), cell.end()) / cell[s]);
         // Closed lines are for a tie only. Lines along direction 1 stay within a plane of memory, which is
         // worth a tenth of a step where cells are almost cubes and others are not much longer.
         const bool long_enough = 3 * grid.extent.n[s] >= 2 * grid.extent.n[D - 1];
@@ -125,7 +126,7 @@ std::vector<int> stiff_directions(const LevelGrid<D>& grid) {
       } else {
         std::size_t thinner = 0;
         for (std::size_t i = 0; i < n; ++i)
-          if (2.0 * thickness[s][i] < thinnest[i]) ++thinner;
+          if (2.0 * h[i][s] < thinnest[i]) ++thinner;
         gain = static_cast<double>(thinner) / static_cast<double>(std::max<std::size_t>(n, 1));
         if (gain < 0.05) gain = 0.0;
       }
@@ -136,8 +137,8 @@ std::vector<int> stiff_directions(const LevelGrid<D>& grid) {
     }
     if (best < 0) break;
     for (std::size_t i = 0; i < n; ++i) {
-      const double h = thickness[static_cast<std::size_t>(best)][i];
-      thinnest[i] = chosen.empty() ? h : std::min(thinnest[i], h);
+      const double now = h[i][static_cast<std::size_t>(best)];
+      thinnest[i] = chosen.empty() ? now : std::min(thinnest[i], now);
     }
     chosen.push_back(best);
   }
@@ -147,6 +148,8 @@ std::vector<int> stiff_directions(const LevelGrid<D>& grid) {
 
 template LineLayout line_layout(const LevelGrid<2>&, int);
 template LineLayout line_layout(const LevelGrid<3>&, int);
+template std::array<double, 2> thickness<2>(const LevelGrid<2>&, std::ptrdiff_t);
+template std::array<double, 3> thickness<3>(const LevelGrid<3>&, std::ptrdiff_t);
 template std::vector<int> stiff_directions(const LevelGrid<2>&);
 template std::vector<int> stiff_directions(const LevelGrid<3>&);
 

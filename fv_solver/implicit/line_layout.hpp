@@ -33,6 +33,11 @@ struct LineLayout {
 template <int D>
 LineLayout line_layout(const LevelGrid<D>& grid, int direction);
 
+/// Thickness of a cell along each direction, V/S [m]: coupling through the faces of a direction goes with its
+/// inverse square. pure
+template <int D>
+std::array<double, D> thickness(const LevelGrid<D>& grid, std::ptrdiff_t c);
+
 /// Directions in which cells are so thin that point-wise smoothing fails: the stiffest first; further ones
 /// only where more than a twentieth of the cells are at least twice as thin there as in those chosen.
 /// On an isotropic grid: a direction that is not periodic, direction 1 unless the last is much longer.

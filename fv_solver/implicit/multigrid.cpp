@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "implicit/held_directions.hpp"
+
 namespace littoral::fv {
 
 template <int D, class Real>
@@ -76,7 +78,8 @@ Multigrid<D, Real>::Multigrid(std::vector<LevelGrid<D>> blocks, const MultigridO
       for (auto& field : block.r.q) level.r_arrays.back().push_back(field.data());
     }
     level.count_steps(owners_.ranks);
-    level.ratios = joint_ratios<D>(level.shapes, level.joins);
+    level.ratios =
+        joint_ratios<D>(level.shapes, level.joins, all_held_directions<D>(grids, level.shapes, owners_));
     bool coarsens = false;
     for (const auto& ratio : level.ratios)
       for (int r : ratio) coarsens = coarsens || r > 1;

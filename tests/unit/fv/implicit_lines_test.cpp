@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "implicit/held_directions.hpp"
 #include "implicit_models.hpp"
 
 namespace littoral::fv {
@@ -83,6 +84,22 @@ TEST(ImplicitLinesTest, LinesFollowTheThinDirection) {
     return std::array<double, 2>{std::pow(1.5, i[0]), std::pow(1.5, i[1])};
   });
   EXPECT_EQ(stiff_directions(level_grid(corner)).size(), 2u);
+}
+
+TEST(ImplicitLinesTest, LongDirectionsAreHeldWhileTheThinOnesAreHalved) {
+  const auto held = [](const std::array<int, 3>& n, const std::array<double, 3>& h) {
+    const auto block = make_block<3>("box", n, {false, true, false}, [&](const std::array<int, 3>& i) {
+      return std::array<double, 3>{h[0] * i[0], h[1] * i[1], h[2] * i[2]};
+    });
+    const LevelGrid<3> grid = level_grid(block);
+    return held_directions<3>(grid, coarsening_ratio<3>(n, grid.periodic));
+  };
+  using Held = std::array<bool, 3>;
+  EXPECT_EQ(held({8, 8, 8}, {1.0, 1.0, 1.0}), (Held{false, false, false}));
+  EXPECT_EQ(held({8, 8, 8}, {4.0, 1.0, 1.0}), (Held{true, false, false}));
+  EXPECT_EQ(held({8, 8, 8}, {4.0, 1.0, 0.01}), (Held{true, false, false}));
+  EXPECT_EQ(held({8, 8, 8}, {1.0, 1.0, 0.01}), (Held{false, false, false}));  // lines do it
+  EXPECT_EQ(held({8, 3, 3}, {4.0, 1.0, 1.0}), (Held{false, false, false}));   // nothing else to halve
 }
 
 /// The operator is the derivative of the flux it says it linearises: finite differences of the first-order
