@@ -9,6 +9,7 @@
 #include "coupling/carve.hpp"
 #include "coupling/coupled.hpp"
 #include "grid/grid_file.hpp"
+#include "io/checkpoint.hpp"
 #include "io/gauges.hpp"
 #include "littoral/error.hpp"
 #include "littoral/support/options.hpp"
@@ -45,9 +46,10 @@ Ranks ranks_of(const coupler::Job& job) { return job.size() > 1 ? Ranks(job.comm
 
 /// What --check finds beyond reading: everything a run would refuse before its first window.
 template <int D>
-double check_run(const coupler::Job& job, const FvConfig& config, const support::Scene& scene,
-                 std::vector<std::string>& notes) {
+double check_run(const coupler::Job& job, const ProgramOptions& options, const FvConfig& config,
+                 const support::Scene& scene, std::vector<std::string>& notes) {
   Stepper<D> stepper = make_stepper<D>(config, scene, &notes, ranks_of(job));
+  if (!options.restart.empty()) read_checkpoint<D>(options.restart, stepper, scene);
   if (scene.has_region()) {
     carve<D>(stepper.blocks(), stepper.exchange(), scene);
     stepper.seek_donors();
@@ -109,8 +111,8 @@ int run(coupler::Job& job, int argc, char** argv) {
   support::planned_partner(coupler::Role::fv, scene, config.partner, options);
   if (options.check) {
     std::vector<std::string> notes;
-    const double cells = scene.dimension == 2 ? check_run<2>(job, config, scene, notes)
-                                              : check_run<3>(job, config, scene, notes);
+    const double cells = scene.dimension == 2 ? check_run<2>(job, options, config, scene, notes)
+                                              : check_run<3>(job, options, config, scene, notes);
     if (!speaks) return 0;
     for (const std::string& note : notes) std::printf("fv_solver: %s\n", note.c_str());
     for (const std::string& warning : support::scene_warnings(scene))

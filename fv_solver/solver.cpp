@@ -127,10 +127,12 @@ coupler::Proposal Solver<D>::propose() const {
   mine.dt_stable = std::numeric_limits<double>::infinity();
   if (config_.time.dt) mine.dt_stable = *config_.time.dt;
   if (config_.time.cfl) {
+    // water at rest does not say how long a step may be
+    const double least =
+        scene_.reference_velocity > 0.0 ? scene_.reference_velocity : stepper_.equations().speeds.c0;
     double rate = 0.0;
     for (std::size_t b = 0; b < stepper_.blocks().size(); ++b)
-      rate = std::max(
-          rate, convective_rate<D>(stepper_.blocks()[b], stepper_.state()[b], scene_.reference_velocity));
+      rate = std::max(rate, convective_rate<D>(stepper_.blocks()[b], stepper_.state()[b], least));
     mine.dt_stable = *config_.time.cfl / ranks_.largest(rate);
   }
   // a window whose length the particles decide: as long as the last one

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "boundary/boundary_flux.hpp"
+#include "boundary/closed_body.hpp"
 #include "grid/loops.hpp"
 #include "littoral/error.hpp"
 
@@ -20,6 +21,29 @@ void for_each_row(const Block<D>& block, Body&& body) {
   for_each_index<D>(lower, upper, [&](const std::array<int, D>& index) {
     body(static_cast<std::size_t>(block.extent.at(index)), static_cast<std::size_t>(block.extent.n[0]));
   });
+}
+
+/// The level of p in a closed body with c infinite is free; local steps let it drift. It stays where it was.
+/// comm collective
+template <int D>
+void keep_level(const StepProblem<D>& problem, const std::vector<State<D>>& before,
+                std::vector<State<D>>& q) {
+  std::array<double, 2> sum{};  // of V (p - p before), of V
+  for (std::size_t b = 0; b < q.size(); ++b) {
+    const Block<D>& block = problem.blocks[b];
+    for_each_row(block, [&](std::size_t first, std::size_t n) {
+      for (std::size_t c = first; c < first + n; ++c) {
+        const double v = block.solved[c] * block.volume[c];
+        sum[0] += v * (q[b].p[c] - before[b].p[c]);
+        sum[1] += v;
+      }
+    });
+  }
+  problem.exchange.ranks().sum(sum);
+  if (sum[1] <= 0.0) return;
+  for (std::size_t b = 0; b < q.size(); ++b)
+    for (std::size_t c = 0; c < q[b].p.size(); ++c)
+      if (problem.blocks[b].solved[c] != 0.0) q[b].p[c] -= sum[0] / sum[1];
 }
 
 }  // namespace
@@ -83,6 +107,9 @@ StepReport PlainDualTime<D>::solve(const StepProblem<D>& problem, const InnerTol
   const double rho0 = problem.equations.fluid.density, inverse_c2 = problem.equations.fluid.inverse_c2;
   StepReport report;
   set_pseudo_steps(problem, q);
+  const bool free_level = inverse_c2 == 0.0 && problem.surface == nullptr &&
+                          !problem.exchange.ranks().any(!closed_body<D>(problem.blocks));
+  const std::vector<State<D>> before = free_level ? q : std::vector<State<D>>{};
   problem.evaluate(q, residual_);
   report.norms.push_back(problem.norm(residual_));
   while (report.cycles < tolerance.max_cycles && std::isfinite(report.norms.back()) &&
@@ -119,6 +146,7 @@ StepReport PlainDualTime<D>::solve(const StepProblem<D>& problem, const InnerTol
     throw StabilityError("the residual is not finite after " + std::to_string(report.cycles) +
                          " pseudo-time steps");
   report.converged = tolerance.met(report.norms.back(), report.norms.front());
+  if (free_level) keep_level(problem, before, q);
   return report;
 }
 

@@ -65,7 +65,9 @@ std::optional<Plot3dFile> try_binary(const std::string& bytes, Plot3dDialect d) 
   };
   const auto end_record = [&](std::int64_t expected) {
     if (!d.records) return true;
-    return in.left() >= 4 && in.get<std::int32_t>() == expected;
+    if (in.left() < 4) return false;
+    const auto length = in.get<std::int32_t>();
+    return expected < 0 || length == expected;
   };
   std::int64_t n_blocks = 1;
   if (d.multi_block) {
@@ -88,9 +90,10 @@ std::optional<Plot3dFile> try_binary(const std::string& bytes, Plot3dDialect d) 
   for (auto& block : *blocks) {
     const auto length = static_cast<std::int64_t>(block.nodes()) * node_bytes(d);
     // a record's length is written in 31 bits; of larger records it says nothing
-    if (!begin_record(length <= std::numeric_limits<std::int32_t>::max() ? length : -1)) return {};
+    const std::int64_t said = length <= std::numeric_limits<std::int32_t>::max() ? length : -1;
+    if (!begin_record(said)) return {};
     read_nodes(in, d, block);
-    if (d.records) in.at += 4;
+    if (!end_record(said)) return {};
   }
   return Plot3dFile{std::move(*blocks), d};
 }
@@ -119,6 +122,7 @@ std::optional<Plot3dFile> read_binary(const std::string& bytes) {
 /// All numbers of a text, Fortran's repeats (3*1.0) and exponents (1.0D-3) included; nothing where there is
 /// anything else.
 std::optional<std::vector<double>> numbers_of(const std::string& text) {
+  constexpr std::size_t k_most_values = std::size_t{1} << 29;  // 4 GiB: beyond it a repeat is a mistake
   std::vector<double> values;
   std::string word;
   const auto flush = [&] {
@@ -135,6 +139,7 @@ std::optional<std::vector<double>> numbers_of(const std::string& text) {
     }
     const double value = std::strtod(word.c_str(), &end);
     if (end != word.c_str() + word.size() || word.empty()) return false;
+    if (repeats == 0 || repeats > k_most_values - values.size()) return false;
     values.insert(values.end(), repeats, value);
     word.clear();
     return true;
@@ -189,7 +194,7 @@ std::optional<Plot3dFile> read_text(const std::string& text) {
     for (const bool planar : {false, true})
       for (const bool iblank : {false, true}) {
         auto file = try_text(*values, {true, false, false, multi, iblank, planar, false});
-        if (file) return file;
+        if (file && plausible(*file)) return file;
       }
   return {};
 }

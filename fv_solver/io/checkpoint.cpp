@@ -1,5 +1,7 @@
 #include "io/checkpoint.hpp"
 
+#include <cstring>
+
 #include "grid/loops.hpp"
 #include "grid/metrics.hpp"
 #include "littoral/error.hpp"
@@ -28,6 +30,33 @@ void put_statuses(StateWriter<D>& file, const std::vector<Block<D>>& blocks) {
   }
 }
 
+/// A number that differs where any centre or volume of the uncut blocks does, however they are cut.
+/// comm collective
+template <int D>
+std::int64_t grid_digest(const Stepper<D>& stepper) {
+  const Layout<D>& layout = stepper.exchange().layout();
+  const std::vector<std::size_t> mine = layout.owners.mine();
+  std::uint64_t sum = 0;
+  for (std::size_t i = 0; i < mine.size(); ++i) {
+    const Block<D>& block = stepper.blocks()[i];
+    for_each_index<D>({}, block.extent.n, [&](const std::array<int, D>& index) {
+      const auto c = static_cast<std::size_t>(block.extent.at(index));
+      std::uint64_t hash = 1469598103934665603ULL + layout.part[mine[i]].whole;  // FNV-1a, a word a time
+      const auto mix = [&](double value) {
+        std::uint64_t bits = 0;
+        std::memcpy(&bits, &value, sizeof bits);
+        hash = (hash ^ bits ^ (bits >> 29)) * 1099511628211ULL;
+      };
+      for (std::size_t k = 0; k < D; ++k) mix(block.centre[k][c]);
+      mix(block.volume[c]);
+      sum += hash ^ (hash >> 32);
+    });
+  }
+  std::uint64_t total = 0;
+  for (const std::uint64_t part : layout.owners.ranks.gather(std::vector<std::uint64_t>{sum})) total += part;
+  return static_cast<std::int64_t>(total);
+}
+
 }  // namespace
 
 template <int D>
@@ -37,6 +66,8 @@ void write_checkpoint(const std::string& path, const Stepper<D>& stepper, std::i
   const auto memory = stepper.memory();
   file.put("program", std::string("fv_solver"));
   file.put("scene", scene.restart_digest);
+  file.put("blocks", static_cast<std::int64_t>(stepper.exchange().layout().whole.size()));
+  file.put("grid", grid_digest(stepper));
   file.put("window", window);
   file.put("time", memory.time);
   file.put("known", static_cast<std::int64_t>(memory.known));
@@ -69,15 +100,23 @@ std::int64_t read_checkpoint(const std::string& path, Stepper<D>& stepper, const
     throw ConfigError(path + ": a checkpoint of " + file.text("program") + ", not of fv_solver");
   if (file.text("scene") != scene.restart_digest)
     throw ConfigError(path + ": a checkpoint of another scene; only title, time and deadline may differ");
+  const Layout<D>& layout = stepper.exchange().layout();
+  if (file.integer("blocks") != static_cast<std::int64_t>(layout.whole.size()))
+    throw ConfigError(path + ": a checkpoint of " + std::to_string(file.integer("blocks")) +
+                      " blocks; the grid of this run has " + std::to_string(layout.whole.size()));
+  if (file.integer("grid") != grid_digest(stepper))
+    throw ConfigError(path +
+                      ": a checkpoint on another grid: the cells of this run's blocks lie elsewhere; restart "
+                      "with the blocks, rings, plates and grid files it was written with");
   typename Stepper<D>::Memory memory;
   memory.time = file.number("time");
   memory.known = static_cast<int>(file.integer("known"));
   memory.steps = file.integer("steps");
   const std::vector<double> dt = file.doubles("dt");
-  for (std::size_t k = 0; k < memory.dt.size(); ++k) memory.dt[k] = dt[k];
-  const Layout<D>& layout = stepper.exchange().layout();
+  for (std::size_t k = 0; k < memory.dt.size(); ++k) memory.dt[k] = dt.at(k);
   const std::vector<std::size_t> mine = layout.owners.mine();
   for (auto& level : memory.level) level.resize(mine.size());
+  double other_overlap = 0.0;  // cells that were interpolated and are not, or the other way round
   for (std::size_t i = 0; i < mine.size(); ++i) {
     Block<D>& block = stepper.blocks()[i];
     const std::size_t whole = layout.part[mine[i]].whole;
@@ -91,7 +130,10 @@ std::int64_t read_checkpoint(const std::string& path, Stepper<D>& stepper, const
     const Field own = part_of<D>(layout, mine[i], Field(status.begin(), status.end()));
     for_each_index<D>({}, block.extent.n, [&](const std::array<int, D>& index) {
       const auto c = static_cast<std::size_t>(block.extent.at(index));
-      block.status[c] = static_cast<CellStatus>(static_cast<int>(own[c]));
+      const auto then = static_cast<CellStatus>(static_cast<int>(own[c]));
+      const bool overlap = then == CellStatus::interpolated || block.status[c] == CellStatus::interpolated;
+      other_overlap += overlap && then != block.status[c] ? 1.0 : 0.0;
+      block.status[c] = then;
     });
     set_solved_mask(block);
     for (std::size_t level = 0; level < memory.level.size(); ++level) {
@@ -104,6 +146,11 @@ std::int64_t read_checkpoint(const std::string& path, Stepper<D>& stepper, const
       memory.phi[level][i] = read(level, "phi");
     }
   }
+  other_overlap = layout.owners.ranks.sum(other_overlap);
+  if (other_overlap > 0.0)
+    throw ConfigError(path + ": a checkpoint of another overlap: " +
+                      std::to_string(static_cast<std::int64_t>(other_overlap)) +
+                      " cells are interpolated in one and not in the other; restart with the same `overset`");
   if (stepper.surface() != nullptr) {
     const std::vector<double> water = file.doubles("water");
     memory.volume = {water.at(0), water.at(1), water.at(2)};

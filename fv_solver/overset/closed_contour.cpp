@@ -3,43 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "boundary/closed_body.hpp"
 #include "grid/loops.hpp"
 #include "overset/components.hpp"
 
 namespace littoral::fv {
-namespace {
-
-bool keeps_the_water(Condition condition) {
-  switch (condition) {
-    case Condition::wall:
-    case Condition::slip:
-    case Condition::symmetry:
-    case Condition::inflow:
-    case Condition::periodic:
-    case Condition::join:
-    case Condition::overset:
-      return true;
-    default:
-      return false;
-  }
-}
-
-}  // namespace
-
 template <int D>
 ClosedContour<D>::ClosedContour(const std::vector<Block<D>>& blocks, const JoinLinks<D>& links) {
-  for (const Block<D>& block : blocks)
-    for (const Window<D>& window : block.windows)
-      if (!keeps_the_water(window.condition)) return;
+  if (!closed_body<D>(blocks)) return;
   const std::vector<std::size_t> component = components(blocks);
-  const auto lowest = [&] {
-    std::size_t found = blocks.size();
-    for (std::size_t b = 0; b < blocks.size(); ++b)
-      if (std::find(blocks[b].status.begin(), blocks[b].status.end(), CellStatus::interpolated) !=
-          blocks[b].status.end())
-        found = std::min(found, component[b]);
-    return found;
-  }();
+  // a patch above others is not free: their pressure is interpolated into it
+  const std::size_t lowest = *std::min_element(component.begin(), component.end());
   std::vector<Field> interpolated;  // 1 there, ghosts behind joins as the cells
   for (const Block<D>& block : blocks) {
     interpolated.emplace_back(block.extent.size, 0.0);

@@ -16,7 +16,7 @@ class ClosedContour {
  public:
   ClosedContour() = default;
   /// Of all blocks; links: their joins. Empty where a boundary knows the pressure or lets water out, and
-  /// where nothing is interpolated.
+  /// where the lowest component has no hole: closing a patch above it instead would set its pressure free.
   ClosedContour(const std::vector<Block<D>>& blocks, const JoinLinks<D>& links);
   /// Leaves what concerns a rank's own blocks.
   void keep(const Owners& owners);

@@ -34,6 +34,21 @@ double fastest(const Stepper<D>& stepper) {
   return largest;
 }
 
+/// Sum of V u^2/2 over the solved cells [m^(D+2)/s^2].
+template <int D>
+double energy(const Stepper<D>& stepper) {
+  double sum = 0.0;
+  for (std::size_t b = 0; b < stepper.blocks().size(); ++b) {
+    const Block<D>& block = stepper.blocks()[b];
+    for_each_index<D>({}, block.extent.n, [&](const std::array<int, D>& index) {
+      const auto c = static_cast<std::size_t>(block.extent.at(index));
+      if (block.solved[c] == 0.0) return;
+      for (const auto& u : stepper.state()[b].u) sum += 0.5 * block.volume[c] * u[c] * u[c];
+    });
+  }
+  return sum;
+}
+
 /// Steps on, and prints a line for the table of the README.
 template <int D>
 Outcome march(Stepper<D>& stepper, double dt, int steps, const char* what, double value) {
@@ -71,7 +86,8 @@ void set_face(Block<D>& block, int direction, int side, Condition condition, dou
     }
 }
 
-/// Lid cavity of side `length`, lid speed `speed`.
+/// Lid cavity of side `length`, lid speed `speed`; cells grow by exp(stretching) from the lower corner to the
+/// lid's, or shrink.
 inline Stepper<2> cavity(int n, double length, double speed, double nu, double inverse_c2 = 0.0,
                          double stretching = 0.0) {
   Block<2> block = make_block<2>("cavity", {n, n}, {false, false}, [=](const std::array<int, 2>& index) {

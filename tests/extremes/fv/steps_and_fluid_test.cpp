@@ -40,6 +40,29 @@ TEST(ExtremeFluidTest, ReynoldsNumberFromAHundredthToTenMillion) {
   }
 }
 
+/// In the cavity above friction at Re = 1e7 moves nothing in a second. Here vortices turn three times, ten
+/// cells across each: energy does not grow, and most of it is left.
+TEST(ExtremeFluidTest, VorticesAtTenMillion) {
+  Block<2> block = deformed_box<2>(20, 0.0, 0.0, 0.0, {true, true});
+  close_with<2>(block, Condition::periodic);
+  Equations<2> equations;
+  equations.fluid.viscosity = 1e-7;
+  Stepper<2> stepper({block}, equations, std::make_unique<MultigridSolver<2>>(), three_orders());
+  stepper.initialise(
+      [](const std::array<double, 2>& x, double) {
+        PointState<2> q;
+        q.u = {std::sin(2.0 * M_PI * x[0]) * std::cos(2.0 * M_PI * x[1]) + 0.1 * std::sin(2.0 * M_PI * x[1]),
+               -std::cos(2.0 * M_PI * x[0]) * std::sin(2.0 * M_PI * x[1])};
+        return q;
+      },
+      0.0);
+  const double before = energy(stepper);
+  const Outcome outcome = march(stepper, 0.02, 150, "vortices, Re", 1e7);
+  EXPECT_TRUE(outcome.converged);
+  EXPECT_LT(energy(stepper), before);
+  EXPECT_GT(energy(stepper), 0.3 * before);
+}
+
 TEST(ExtremeFluidTest, UnitsFromMillimetresToKilometres) {
   double metre = 0.0;
   for (const double length : {1.0, 1e-3, 1e3}) {  // same Re, same Courant number
@@ -51,9 +74,12 @@ TEST(ExtremeFluidTest, UnitsFromMillimetresToKilometres) {
 }
 
 TEST(ExtremeStepsTest, AnImpulsiveStartOnThinCellsSurvives) {
-  // the lid starts at once; cells 20 times thinner at one corner
-  Stepper<2> stepper = cavity(24, 1.0, 1.0, 1e-4, 0.0, 3.0);
-  EXPECT_LT(march(stepper, 0.02, 15, "impulsive start, Re", 1e4).fastest, k_overshoot);
+  // the lid starts at once; cells beside it 20 times thinner than at the floor
+  Stepper<2> stepper = cavity(24, 1.0, 1.0, 1e-4, 0.0, -3.0);
+  const Outcome outcome = march(stepper, 0.02, 15, "impulsive start, Re", 1e4);
+  EXPECT_TRUE(outcome.converged);
+  EXPECT_LT(outcome.fastest, k_overshoot);
+  EXPECT_GT(outcome.fastest, 0.3);  // the first row follows the lid
 }
 
 TEST(ExtremeStepsTest, ANonsenseStepIsRefused) {

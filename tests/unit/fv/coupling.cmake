@@ -2,5 +2,6 @@
 littoral_gtest(
   NAME fv_coupling_test
   PREFIX fv
-  SOURCES checks_test.cpp coupling_carve_test.cpp coupling_schedules_test.cpp solver_test.cpp
+  SOURCES checks_test.cpp coupling_carve_test.cpp coupling_schedules_test.cpp coupling_surface_test.cpp
+          solver_test.cpp
   LIBS fv_core)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -91,6 +92,19 @@ inline coupler::RunPlan plan_of(const support::Scene& scene, double time = 0.0, 
   plan.end_time = scene.time.end;
   plan.with_phi = support::level_set_crosses(scene);
   return plan;
+}
+
+/// Runs `windows` windows; returns how many it could.
+template <int D>
+int march(Coupled<D>& coupled, Stepper<D>& stepper, int windows) {
+  coupler::Proposal mine;
+  mine.dt_stable = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < windows; ++i) {
+    const auto agreement = coupled.agree(mine);
+    if (!agreement || agreement->stop) return i;
+    coupled.advance(agreement->window, stepper);
+  }
+  return windows;
 }
 
 }  // namespace littoral::fv::test

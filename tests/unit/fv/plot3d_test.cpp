@@ -90,6 +90,17 @@ TEST(Plot3dTest, OtherFilesAreRefused) {
   write_plot3d(path, cut);
   std::filesystem::resize_file(path, std::filesystem::file_size(path) - 8);
   EXPECT_THROW(read_plot3d(path), ConfigError);
+  for (const char* text : {"2 2\n 9999999999999*1.0\n", "2 2\n 0 1 nan 1 0 0 1 1\n"}) {
+    std::ofstream(path) << text;
+    EXPECT_THROW(read_plot3d(path), ConfigError) << text;
+  }
+  write_plot3d(path, sample({}));
+  {  // the mark that closes the last record
+    std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(-4, std::ios::end);
+    file.write("abcd", 4);
+  }
+  EXPECT_THROW(read_plot3d(path), ConfigError);
   std::filesystem::remove(path);
   EXPECT_THROW(read_plot3d(path), IoError);
 }

@@ -4,6 +4,7 @@
 
 #include "dual_time/plain.hpp"
 #include "grids.hpp"
+#include "implicit/multigrid_solver.hpp"
 #include "littoral/error.hpp"
 
 namespace littoral::fv {
@@ -159,6 +160,39 @@ TEST(StepperTest, PlainDualTimeStandsAFarField) {
   double seconds = 0.0;
   for (const auto& phase : stepper.phases().table()) seconds += phase.second;
   EXPECT_GT(seconds, 0.0);
+}
+
+/// The steps of pseudo-time lead to the same answer, the pressure's free level included, and so does the
+/// multigrid.
+TEST(StepperTest, TheInnerIterationLeavesNoMark) {
+  const auto after = [](std::unique_ptr<StepSolver<2>> solver) {
+    Block<2> block = deformed_box<2>(8, 0.1, 0.0, 0.0);
+    close_with<2>(block, Condition::wall);
+    for (Window<2>& w : block.windows)
+      if (w.direction == 1 && w.side == 1)
+        w.velocity[0] = [](const std::array<double, 3>&, double) { return 1.0; };
+    Equations<2> equations;
+    equations.fluid.viscosity = 0.05;
+    InnerTolerance tolerance;
+    tolerance.drop = 1e-9;
+    tolerance.floor = 1e-14;
+    tolerance.max_cycles = 20000;
+    Stepper<2> stepper({block}, equations, std::move(solver), tolerance);
+    stepper.initialise([](const std::array<double, 2>&, double) { return PointState<2>{}; }, 0.0);
+    for (int step = 0; step < 4; ++step) EXPECT_TRUE(stepper.advance(0.1).converged);
+    return stepper.state()[0];
+  };
+  const State<2> one = after(std::make_unique<PlainDualTime<2>>(1.0));
+  const State<2> two = after(std::make_unique<PlainDualTime<2>>(2.0));
+  const State<2> multigrid = after(std::make_unique<MultigridSolver<2, double>>());
+  const Extent<2> e({8, 8});
+  for_each_index<2>({}, {8, 8}, [&](const std::array<int, 2>& index) {
+    const auto c = static_cast<std::size_t>(e.at(index));
+    for (const State<2>* other : {&two, &multigrid}) {
+      EXPECT_NEAR(one.p[c], other->p[c], 1e-4);  // of rho U^2 = 1000 Pa
+      for (std::size_t k = 0; k < 2; ++k) EXPECT_NEAR(one.u[k][c], other->u[k][c], 1e-7);
+    }
+  });
 }
 
 TEST(StepperTest, StartingRatesComeFromTheFieldEquations) {
