@@ -175,6 +175,8 @@ double Solver<D>::cells() const {
 
 template <int D>
 void Solver<D>::write_summary(const Companion<D>& companion, const std::string& reason) {
+  const Traffic sent = ranks_.traffic() != nullptr ? *ranks_.traffic() : Traffic{};
+  const double messages = ranks_.largest(sent.messages), bytes = ranks_.largest(sent.bytes);
   if (!ranks_.root()) return;
   support::Summary summary;
   summary.program = "fv_solver";
@@ -192,6 +194,9 @@ void Solver<D>::write_summary(const Companion<D>& companion, const std::string& 
                      {"inner_cycles_per_step", static_cast<double>(cycles_) / steps},
                      {"unconverged_steps", static_cast<double>(unconverged_)},
                      {"microseconds_per_cell_and_step", 1e6 * solved / (cells() * steps)},
+                     {"halo_messages_most", messages},  // of any rank
+                     {"halo_bytes_most", bytes},
+                     {"sums_over_ranks", sent.sums},
                      {"mass", output_->integrals().mass},
                      {"kinetic_energy", output_->integrals().kinetic_energy},
                      {"potential_energy", output_->integrals().potential_energy}};

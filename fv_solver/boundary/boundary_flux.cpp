@@ -48,13 +48,11 @@ Flux<D> flux_of(double mass, const std::array<double, D>& u, double p, const std
 }  // namespace
 
 template <int D>
-double far_field_speed(const Window<D>& window, std::size_t given, double c0) {
+double far_field_speed(const Window<D>& window, std::size_t given, const WaveSpeeds& speeds) {
   if (window.wave_speed > 0.0) return window.wave_speed;
-  // still water needs a wave speed too: a small part of the flow's, as wave_speed: 0 documents
-  constexpr double k_least_wave_speed = 0.1;
   double speed2 = 0.0;
   for (const auto& u : window.given_u[0]) speed2 += u[given] * u[given];
-  return std::max(std::sqrt(speed2), k_least_wave_speed * c0);
+  return std::max(std::sqrt(speed2), speeds.least_far());
 }
 
 template <int D>
@@ -122,7 +120,7 @@ void compute_boundary_fluxes(const Block<D>& block, const Fluid<D>& fluid, const
             in.u[k] = q.u[k][i0];
           }
           in.p = p[i0];
-          const double c = far_field_speed(w, given, speeds.c0);
+          const double c = far_field_speed(w, given, speeds);
           const double flow_in = through<D>(in.u, area), flow_far = through<D>(far.u, area);
           const double flow =
               0.5 * (flow_in + flow_far) + 0.5 * frame.measure * (in.p - far.p) / (fluid.density * c);
@@ -143,8 +141,8 @@ void compute_boundary_fluxes(const Block<D>& block, const Fluid<D>& fluid, const
   }
 }
 
-template double far_field_speed(const Window<2>&, std::size_t, double);
-template double far_field_speed(const Window<3>&, std::size_t, double);
+template double far_field_speed(const Window<2>&, std::size_t, const WaveSpeeds&);
+template double far_field_speed(const Window<3>&, std::size_t, const WaveSpeeds&);
 template void compute_boundary_fluxes<2>(const Block<2>&, const Fluid<2>&, const WaveSpeeds&, double,
                                          const double*, const State<2>&, BoundaryFluxes<2>&);
 template void compute_boundary_fluxes<3>(const Block<3>&, const Fluid<3>&, const WaveSpeeds&, double,

@@ -33,7 +33,7 @@ void compute_boundary_fluxes(const Block<D>& block, const Fluid<D>& fluid, const
 
 /// Wave speed [m/s] of a far field's Riemann problem at a place of its window (of its given values).
 template <int D>
-double far_field_speed(const Window<D>& window, std::size_t given, double c0);
+double far_field_speed(const Window<D>& window, std::size_t given, const WaveSpeeds& speeds);
 
 /// Position in FaceFlux of a cell beside a face of `direction`.
 template <int D>

@@ -86,7 +86,7 @@ void PlainDualTime<D>::set_pseudo_steps(const StepProblem<D>& problem, const std
       if (w.condition != Condition::far_field) continue;
       double c = std::numeric_limits<double>::max();
       for (std::size_t given = 0; given < w.given_p[0].size(); ++given)
-        c = std::min(c, far_field_speed(w, given, e.speeds.c0));
+        c = std::min(c, far_field_speed(w, given, e.speeds));
       std::array<int, D> lower = w.lower, upper = w.upper;
       const auto d = static_cast<std::size_t>(w.direction);
       lower[d] = w.side == 0 ? 0 : block.extent.n[d] - 1;

@@ -178,7 +178,8 @@ inline SmallMatrix<D> boundary_jacobian(EdgeCondition condition, const std::arra
       carry(physics.mass_speed().inverse(volume / s), 1.0);
       break;
     case EdgeCondition::far_field: {
-      const double speed = far_speed > 0.0 ? far_speed : std::max(std::sqrt(speed2), 0.1 * c0);
+      const double speed =
+          far_speed > 0.0 ? far_speed : std::max(std::sqrt(speed2), physics.speeds.least_far());
       carry(1.0 / speed, 0.5);
       push(0.5);
       for (std::size_t i = 0; i < D; ++i)

@@ -1,5 +1,6 @@
 #include "io/checkpoint.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 #include "grid/loops.hpp"
@@ -112,8 +113,15 @@ std::int64_t read_checkpoint(const std::string& path, Stepper<D>& stepper, const
   memory.time = file.number("time");
   memory.known = static_cast<int>(file.integer("known"));
   memory.steps = file.integer("steps");
-  const std::vector<double> dt = file.doubles("dt");
-  for (std::size_t k = 0; k < memory.dt.size(); ++k) memory.dt[k] = dt.at(k);
+  const auto some = [&](const std::string& name, std::size_t n) {
+    std::vector<double> values = file.doubles(name);
+    if (values.size() != n)
+      throw IoError(path + ": " + name + " has " + std::to_string(values.size()) + " values, not " +
+                    std::to_string(n));
+    return values;
+  };
+  const std::vector<double> dt = some("dt", memory.dt.size());
+  std::copy(dt.begin(), dt.end(), memory.dt.begin());
   const std::vector<std::size_t> mine = layout.owners.mine();
   for (auto& level : memory.level) level.resize(mine.size());
   double other_overlap = 0.0;  // cells that were interpolated and are not, or the other way round
@@ -152,8 +160,8 @@ std::int64_t read_checkpoint(const std::string& path, Stepper<D>& stepper, const
                       std::to_string(static_cast<std::int64_t>(other_overlap)) +
                       " cells are interpolated in one and not in the other; restart with the same `overset`");
   if (stepper.surface() != nullptr) {
-    const std::vector<double> water = file.doubles("water");
-    memory.volume = {water.at(0), water.at(1), water.at(2)};
+    const std::vector<double> water = some("water", 3);
+    memory.volume = {water[0], water[1], water[2]};
   }
   stepper.recall(memory);
   return file.integer("window");

@@ -3,6 +3,7 @@
 #include <mpi.h>
 
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "parallel/ranks.hpp"
@@ -38,6 +39,8 @@ class Halo {
  private:
   std::vector<std::vector<double>> out_, in_;  // of doubles, so that any number lies aligned in them
   std::vector<MPI_Request> requests_;
+  std::shared_ptr<Traffic> traffic_;
+  Traffic of_start_;  // what one start() adds
 };
 
 }  // namespace littoral::fv

@@ -10,10 +10,12 @@ constexpr int k_tag_swap = 31;
 Ranks::Ranks(MPI_Comm comm) : comm_(comm) {
   MPI_Comm_rank(comm_, &rank_);
   MPI_Comm_size(comm_, &size_);
+  if (size_ > 1) traffic_ = std::make_shared<Traffic>();
 }
 
 void Ranks::sum(double* values, std::size_t n) const {
   if (size_ == 1) return;
+  traffic_->sums += 1.0;
   std::vector<double> all(n * static_cast<std::size_t>(size_));
   const int count = static_cast<int>(n);
   MPI_Allgather(values, count, MPI_DOUBLE, all.data(), count, MPI_DOUBLE, comm_);
@@ -27,17 +29,22 @@ double Ranks::sum(double value) const {
 }
 
 double Ranks::largest(double value) const {
-  if (size_ > 1) MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_MAX, comm_);
+  if (size_ == 1) return value;
+  traffic_->sums += 1.0;
+  MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_MAX, comm_);
   return value;
 }
 
 bool Ranks::any(bool here) const {
+  if (size_ == 1) return here;
+  traffic_->sums += 1.0;
   int flag = here ? 1 : 0;
-  if (size_ > 1) MPI_Allreduce(MPI_IN_PLACE, &flag, 1, MPI_INT, MPI_MAX, comm_);
+  MPI_Allreduce(MPI_IN_PLACE, &flag, 1, MPI_INT, MPI_MAX, comm_);
   return flag != 0;
 }
 
 bool Ranks::agree_on(bool failed, std::string& problem) const {
+  traffic_->sums += 1.0;
   int first = failed ? rank_ : size_;
   MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, comm_);
   if (first == size_) return false;

@@ -4,10 +4,17 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace littoral::fv {
+
+/// What a rank has sent to others since the start.
+struct Traffic {
+  double messages = 0.0, bytes = 0.0;  // of halos
+  double sums = 0.0;                   // over all ranks: sums, maxima, votes
+};
 
 /// The ranks of this program. Made without a communicator it is one rank, and no function needs MPI.
 /// Every function is collective where there are several ranks: called by all of them in the same order.
@@ -21,6 +28,9 @@ class Ranks {
   bool several() const { return size_ > 1; }
   bool root() const { return rank_ == 0; }
   MPI_Comm comm() const { return comm_; }
+
+  /// Shared by all copies; none on one rank.
+  const std::shared_ptr<Traffic>& traffic() const { return traffic_; }
 
   /// Each value becomes the sum over all ranks, added in their order: the same bits everywhere and again.
   void sum(double* values, std::size_t n) const;
@@ -72,6 +82,7 @@ class Ranks {
 
   MPI_Comm comm_ = MPI_COMM_NULL;
   int rank_ = 0, size_ = 1;
+  std::shared_ptr<Traffic> traffic_;
 };
 
 template <class T>

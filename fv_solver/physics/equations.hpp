@@ -47,6 +47,8 @@ using MassSpeed = MassSpeedOf<double>;
 struct WaveSpeeds {
   double c0 = 1.0;     // [m/s]
   double kappa = 0.5;  // [-]
+  /// The slowest wave speed of a far field [m/s]: still water needs one, too.
+  double least_far() const { return 0.1 * c0; }
   MassSpeed mass(double dt, double viscosity) const {
     constexpr double k_diffusion = 2.0;  // Fourier modes at rest: implicit/README.md
     return {1.0 / c0, kappa / dt, k_diffusion * viscosity};

@@ -56,6 +56,7 @@ std::vector<Method> methods(const FvConfig& config) {
 
 void compare(const FvConfig& config, const littoral::support::Scene& scene, int steps) {
   constexpr int k_start = 3, k_most = 300;
+  if (!config.time.dt) throw littoral::ConfigError("fv_methods needs time.dt in fv.yaml");
   for (Method& method : methods(config)) {
     Stepper<2> stepper = make_stepper<2>(config, scene);
     stepper.tolerance().max_cycles = k_most;

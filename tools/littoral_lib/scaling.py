@@ -1,5 +1,5 @@
 """littoral bench sph_scaling: sph_solver on 1 to 4 ranks, and a model, from the messages measured, of many more.
-fv_scaling: fv_solver on 1 to 4 ranks."""
+fv_scaling: the same of fv_solver."""
 
 import json
 import os
@@ -87,6 +87,27 @@ def fv_table(title, rows, weak):
               f"| {first / step if weak else first / step / ranks:.0%} |")
 
 
+def fv_model(results, one):
+    """From the run on two ranks, which meet at two faces of a cube's side: messages a neighbour, bytes a face cell, sums a
+    step; from one rank the speed of computing. Ranks are cubes of cells, equally loaded, nothing hidden behind computing."""
+    steps, side = results["steps"], (results["cells"] / 2) ** (1 / 3)
+    messages, sums = results["halo_messages_most"] / steps, results["sums_over_ranks"] / steps
+    bytes_a_face_cell = results["halo_bytes_most"] / steps / (2 * side ** 2)
+    compute_one = one["microseconds_per_cell_and_step"] * 1e-6
+    print(f"\nModel: {messages:.0f} messages a neighbour, {bytes_a_face_cell:.0f} B a face cell, {sums:.0f} sums a step (measured, all levels); "
+          f"{compute_one * 1e6:.2f} us a cell and step; assumed: 26 neighbours, {LATENCY * 1e6:.0f} us a message, {BANDWIDTH / 1e9:.0f} GB/s a rank, "
+          f"{HOP * 1e6:.0f} us a sum and doubling\n")
+    print("| ranks | cells a rank | compute ms | halo ms | sums ms | efficiency |")
+    print("|---|---|---|---|---|---|")
+    for ranks in (8, 100, 1000, 10000):
+        for cells in (1e4, 1e5, 1e6):
+            compute = cells * compute_one
+            halo = 26 * messages * LATENCY + 6 * cells ** (2 / 3) * bytes_a_face_cell / BANDWIDTH
+            agree = sums * HOP * (ranks - 1).bit_length()
+            print(f"| {ranks} | {cells:.0e} | {compute * 1e3:.0f} | {halo * 1e3:.1f} | {agree * 1e3:.2f} "
+                  f"| {compute / (compute + halo + agree):.1%} |")
+
+
 def command(args, solver="sph"):
     program = programs.find(f"{solver}_solver", args.bin)
     folder = pathlib.Path(args.out or ROOT / "out" / "bench" / f"{solver}_scaling")
@@ -99,6 +120,7 @@ def command(args, solver="sph"):
     if solver == "fv":
         fv_table("Strong: the same water", strong, weak=False)
         fv_table("Weak: a block a rank", weak, weak=True)
+        fv_model(strong[1][1], strong[0][1])
         return 0
     table("Strong: the same water", strong)
     table("Weak: a block a rank", weak)

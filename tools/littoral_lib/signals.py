@@ -9,6 +9,18 @@ def up_crossings(time, signal):
     return time[rises] - signal[rises] * (time[rises + 1] - time[rises]) / (signal[rises + 1] - signal[rises])
 
 
+def shedding(time, drag, lift, start):
+    """Over the whole periods of the lift after `start`: mean drag, amplitude and mean of the lift, frequency."""
+    late = time > start
+    time, drag, lift = time[late], drag[late], lift[late]
+    rises = up_crossings(time, lift)
+    if len(rises) < 2:
+        raise ValueError(f"the lift has no whole period after t = {start:g}")
+    whole = (time >= rises[0]) & (time < rises[-1])
+    return {"drag": drag[whole].mean(), "amplitude": 0.5 * (lift[whole].max() - lift[whole].min()),
+            "lift": lift[whole].mean(), "frequency": (len(rises) - 1) / (rises[-1] - rises[0])}
+
+
 def zero_crossings(time, signal):
     """Times of all zero crossings, rising and falling."""
     return np.sort(np.concatenate([up_crossings(time, signal), up_crossings(time, -signal)]))

@@ -13,19 +13,14 @@ CHOICES += [("flux central4", ["fv.flux=central4"]),
             ("precision double", ["fv.dual_time.precision=double"])]
 CHOICES += [(f"fidelity {name}", [f"fv.fidelity={name}"]) for name in ("draft", "standard", "reference")]
 STEPS = [("dt x 4", 4.0), ("dt x 2", 2.0), ("dt / 2", 0.5)]
-
-
 FINE = 1.319, 0.322, 0.1631  # C_D, amplitude of C_L, St on the ring of twice the cells, dt/2: cylinder_ring/README.md
 
 
-def shedding(run, start=50):
-    """Mean drag, amplitude of lift and shedding frequency from `start` on."""
+def coefficients(run):
+    """C_D, amplitude of C_L, St."""
     s = run.fv.scalars
-    late = s["time"] > start
-    t, drag, lift = s["time"][late], 2 * s["cylinder.fx"][late], 2 * s["cylinder.fz"][late]
-    rises = signals.up_crossings(t, lift)
-    whole = (t >= rises[0]) & (t < rises[-1])
-    return drag[whole].mean(), (lift[whole].max() - lift[whole].min()) / 2, (len(rises) - 1) / (rises[-1] - rises[0])
+    found = signals.shedding(s["time"], 2 * s["cylinder.fx"], 2 * s["cylinder.fz"], 50)
+    return found["drag"], found["amplitude"], found["frequency"]
 
 
 def cylinder(case, name, settings, dt):
@@ -33,7 +28,7 @@ def cylinder(case, name, settings, dt):
                    name=f"cylinder_{name}".replace(" ", "_").replace("/", "over"),
                    set=["scene.time.end=80", "fv.output.fields=false", f"fv.time.dt={dt}*d/U", "fv.rings[0].around=64",
                         "fv.rings[0].outward=48", "fv.rings[0].spacing.first_cell=6e-3*d"] + settings)
-    return shedding(run), run
+    return coefficients(run), run
 
 
 def cost(run):
