@@ -286,11 +286,18 @@ void Multigrid<D, Real>::cycle(bool fresh) {
 template <int D, class Real>
 void Multigrid<D, Real>::descend(std::size_t l, bool fresh) {
   Level& level = *levels_[l];
-  if (fresh)
+  const bool coarsest = l + 1 == levels_.size();
+  // One block that is swept once in two colours: the first reads nothing, the second what the first has
+  // written, so there is no need of zeros before, and of the residual only the first's is not zero after.
+  const bool two_colours = fresh && !coarsest && options_.pre_sweeps == 1 && level.blocks.size() == 1 &&
+                           level.joins.empty() && level.overlap.links.empty() &&
+                           level.blocks[0].operators.size() == 1 &&
+                           level.blocks[0].operators[0].layout().n_colours() == 2;
+  if (fresh && !two_colours)
     for (auto& block : level.blocks)
       for (auto& field : block.e.q) std::fill(field.begin(), field.end(), Real(0));
   if (!fresh || !level.overlap.links.empty()) exchange(level);
-  if (l + 1 == levels_.size()) {
+  if (coarsest) {
     for (int s = 0; s < options_.coarsest_sweeps; ++s) {
       sweep(level, true);
       sweep(level, false);
@@ -301,8 +308,7 @@ void Multigrid<D, Real>::descend(std::size_t l, bool fresh) {
   Level& next = *levels_[l + 1];
   for (auto& block : level.blocks) {
     const LineOperator<D, Real>& op = block.operators[0];
-    const bool alone = level.blocks.size() == 1 && level.joins.empty() && block.operators.size() == 1;
-    if (alone && fresh && options_.pre_sweeps == 1 && op.layout().n_colours() == 2)
+    if (two_colours)
       op.residual_after_sweep(block.e, block.r);
     else
       op.residual(block.b, block.e, block.r);
