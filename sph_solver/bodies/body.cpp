@@ -17,7 +17,7 @@ Body::Body(const support::BodySpec& spec, bool planar, double time_scale,
 SurfacePoint Body::closest_wall(const Vector3& x) const {
   const SurfacePoint local = shape_->closest(to_local(x));
   const double sign = fluid_inside_ ? -1.0 : 1.0;
-  return {to_world(local.point), -sign * now_.rotation(local.normal), sign * local.distance};
+  return {to_world(local.point), -sign * now_.rotation(local.normal), sign * local.distance, local.patch};
 }
 
 std::optional<double> Body::passage(const Vector3& from, const Vector3& to) const {

@@ -58,14 +58,15 @@ void Dummies<D>::make(const Body& own, std::int32_t b, const Vector3& place, dou
   if (!own.is_sheet()) {
     if (closest.distance > tolerance_ || closest.distance < -depth) return;
     const Rotation back = own.state().rotation.inverse();
-    made_.push_back({b, local, own.to_local(closest.point), back(closest.normal)});
+    made_.push_back({b, local, own.to_local(closest.point), back(closest.normal), closest.patch});
+    any_smooth_ = any_smooth_ || closest.patch >= 0;
     return;
   }
   if (closest.distance > depth) return;
   // a place on the sheet itself stands behind it for both sides
   for (const double front : {1.0, -1.0})
     if (Body::side(local) != front || std::fabs(local[2]) < tolerance_)
-      made_.push_back({b, local, {local[0], local[1], 0.0}, {0.0, 0.0, -front}});
+      made_.push_back({b, local, {local[0], local[1], 0.0}, {0.0, 0.0, -front}, -1});
 }
 
 template <int D>
@@ -182,6 +183,7 @@ void Dummies<D>::refresh(const std::vector<Body>& bodies) {
       dummy.a[d] = s * acceleration[d];
     }
     dummy.body = made.body;
+    dummy.patch = made.patch;
   }
 }
 

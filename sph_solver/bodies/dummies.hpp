@@ -62,7 +62,9 @@ class Dummies {
     Vector normal;  // there, out of the fluid
     Vector u, a;    // of the surface there [m/s, m/s^2]
     std::int32_t body;
+    std::int32_t patch;  // of its body's surface, as SurfacePoint has it
   };
+  bool any_smooth() const { return any_smooth_; }  ///< one belongs to a curved patch
   const Dummy& operator[](std::size_t k) const { return dummies_[k]; }
   const Columns& x() const { return x_; }  ///< of all, as cells are filled with them
 
@@ -70,6 +72,7 @@ class Dummies {
   struct Made {
     std::int32_t body;
     Vector3 place, wall, normal;  // in the body's frame
+    std::int32_t patch;
   };
   /// Where a sheet is; given: the body is one.
   struct SheetPlace {
@@ -89,6 +92,7 @@ class Dummies {
   DomainBox<D> box_;
   double tolerance_;  // [m] round-off of positions
   double volume_;
+  bool any_smooth_ = false;
   std::vector<Dummy> dummies_;
   Columns x_;
   std::vector<Made> made_;

@@ -9,7 +9,7 @@ namespace littoral::sph {
 EdgePoint closest_on_disc(double radius, const Point2& x) {
   const double r = std::hypot(x[0], x[1]);
   const Point2 n = r > 0.0 ? Point2{x[0] / r, x[1] / r} : Point2{1.0, 0.0};
-  return {{radius * n[0], radius * n[1]}, n, r - radius};
+  return {{radius * n[0], radius * n[1]}, n, r - radius, true};
 }
 
 EdgePoint closest_on_polygon(const std::vector<Point2>& corners, const Point2& x) {

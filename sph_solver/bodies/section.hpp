@@ -13,6 +13,7 @@ struct EdgePoint {
   Point2 point{};
   Point2 normal{};
   double distance = 0.0;
+  bool curved = false;
 };
 
 /// Of a disc about the origin.

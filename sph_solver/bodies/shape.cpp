@@ -19,18 +19,20 @@ class Extrusion : public Shape {
 
   SurfacePoint closest(const Vector3& x) const override {
     const EdgePoint edge = section_(Point2{x[0], x[2]});
-    const SurfacePoint side{
-        {edge.point[0], x[1], edge.point[1]}, {edge.normal[0], 0.0, edge.normal[1]}, edge.distance};
+    const SurfacePoint side{{edge.point[0], x[1], edge.point[1]},
+                            {edge.normal[0], 0.0, edge.normal[1]},
+                            edge.distance,
+                            edge.curved ? 0 : -1};
     if (half_ == k_endless) return side;
     const double end = x[1] < 0.0 ? -half_ : half_;
     const double beyond = std::fabs(x[1]) - half_;
     if (edge.distance > 0.0 && beyond > 0.0) {
       const Vector3 p = {edge.point[0], end, edge.point[1]}, away = x - p;
       const double r = norm(away);
-      return {p, (1.0 / r) * away, r};
+      return {p, (1.0 / r) * away, r, -1};
     }
     if (edge.distance >= beyond) return side;
-    return {{x[0], end, x[2]}, {0.0, end < 0.0 ? -1.0 : 1.0, 0.0}, beyond};
+    return {{x[0], end, x[2]}, {0.0, end < 0.0 ? -1.0 : 1.0, 0.0}, beyond, -1};
   }
   std::array<Vector3, 2> bounds() const override {
     return {{{bounds_[0][0], -half_, bounds_[0][1]}, {bounds_[1][0], half_, bounds_[1][1]}}};
@@ -63,7 +65,7 @@ class Sphere : public Shape {
   SurfacePoint closest(const Vector3& x) const override {
     const double r = norm(x);
     const Vector3 n = r > 0.0 ? (1.0 / r) * x : Vector3{0.0, 0.0, 1.0};
-    return {radius_ * n, n, r - radius_};
+    return {radius_ * n, n, r - radius_, 0};
   }
   std::array<Vector3, 2> bounds() const override {
     return {{{-radius_, -radius_, -radius_}, {radius_, radius_, radius_}}};
@@ -80,7 +82,7 @@ class Plate : public Shape {
   SurfacePoint closest(const Vector3& x) const override {
     const Vector3 on = {std::clamp(x[0], -half_[0], half_[0]), std::clamp(x[1], -half_[1], half_[1]), 0.0};
     const double r = norm(x - on);
-    return {on, r > 0.0 ? (1.0 / r) * (x - on) : Vector3{0.0, 0.0, 1.0}, r};
+    return {on, r > 0.0 ? (1.0 / r) * (x - on) : Vector3{0.0, 0.0, 1.0}, r, -1};
   }
   std::array<Vector3, 2> bounds() const override {
     return {{{-half_[0], -half_[1], 0.0}, {half_[0], half_[1], 0.0}}};

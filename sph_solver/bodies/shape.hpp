@@ -15,6 +15,7 @@ struct SurfacePoint {
   Vector3 point{};        // [m]
   Vector3 normal{};       // unit, out of the solid shape; at edges along the line to the given point
   double distance = 0.0;  // [m] of the given point; negative inside the shape
+  int patch = -1;         // of the curved part of the surface that has no edge within it; -1: a plane
 };
 
 /// A solid about its own origin, or a sheet, which has no inside: its distances are never negative.

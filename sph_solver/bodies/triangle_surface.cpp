@@ -13,6 +13,10 @@ namespace {
 
 constexpr std::size_t k_leaf = 4;     // triangles
 constexpr double k_touching = 1e-12;  // of its extent: nearer than this a point is on the surface
+// Triangles whose normals differ by less belong to one curved patch; cos 40 degrees: a prism of nine sides
+// is round, one of eight has edges.
+constexpr double k_cos_edge = 0.766;
+constexpr double k_cos_flat = 1.0 - 1e-9;  // by no more than round-off of a file's coordinates
 
 double square_distance(const std::array<Vector3, 2>& box, const Vector3& x) {
   double sum = 0.0;
@@ -61,6 +65,7 @@ struct TriangleSurface::Nearest {
   Vector3 point{};
   Vector3 outward{};  // pseudonormal there
   bool on_face = false;
+  int patch = -1;
 };
 
 TriangleSurface::TriangleSurface(const TriangleSoup& soup, const std::string& name) {
@@ -72,6 +77,7 @@ TriangleSurface::TriangleSurface(const TriangleSoup& soup, const std::string& na
   divide(0);
   bounds_ = nodes_[0].box;
   find_normals();
+  find_patches();
 }
 
 void TriangleSurface::join(const TriangleSoup& soup) {
@@ -145,6 +151,37 @@ void TriangleSurface::find_normals() {
       t.at_edge[k] = t.normal + across.at({t.corner[(k + 1) % 3], t.corner[k]});
 }
 
+void TriangleSurface::find_patches() {
+  std::map<std::array<std::int32_t, 2>, std::size_t> owner;  // triangle with this directed edge
+  for (std::size_t q = 0; q < triangles_.size(); ++q) {
+    const auto& corner = triangles_[q].corner;
+    for (std::size_t k = 0; k < 3; ++k) owner[{corner[k], corner[(k + 1) % 3]}] = q;
+    triangles_[q].patch = -1;
+  }
+  std::vector<char> seen(triangles_.size(), 0);
+  std::int32_t n_patches = 0;
+  for (std::size_t first = 0; first < triangles_.size(); ++first) {
+    if (seen[first]) continue;
+    seen[first] = 1;
+    std::vector<std::size_t> members = {first};
+    bool curved = false;
+    for (std::size_t m = 0; m < members.size(); ++m) {
+      const Triangle& here = triangles_[members[m]];
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t next = owner.at({here.corner[(k + 1) % 3], here.corner[k]});
+        const double cosine = dot(here.normal, triangles_[next].normal);
+        if (seen[next] || cosine < k_cos_edge) continue;
+        seen[next] = 1;
+        members.push_back(next);
+        curved = curved || cosine < k_cos_flat;
+      }
+    }
+    if (!curved) continue;
+    for (const std::size_t q : members) triangles_[q].patch = n_patches;
+    ++n_patches;
+  }
+}
+
 void TriangleSurface::divide(std::size_t node) {
   constexpr double inf = std::numeric_limits<double>::infinity();
   const std::size_t begin = nodes_[node].begin, end = nodes_[node].end;
@@ -187,6 +224,7 @@ void TriangleSurface::compare(std::size_t triangle, const Vector3& x, Nearest& b
   const double square = dot(x - point, x - point);
   if (square >= best.square || dot(t.normal, t.normal) == 0.0) return;
   best.square = square;
+  best.patch = t.patch;
   best.point = point;
   best.on_face = feature.kind == Feature::Kind::face;
   best.outward = feature.kind == Feature::Kind::face ? t.normal
@@ -219,7 +257,7 @@ SurfacePoint TriangleSurface::closest(const Vector3& x) const {
   const bool along_the_line = !best.on_face && r > k_touching * norm(bounds_[1] - bounds_[0]);
   const Vector3 normal =
       along_the_line ? (sign / r) * (x - best.point) : (1.0 / norm(best.outward)) * best.outward;
-  return {best.point, normal, sign * r};
+  return {best.point, normal, sign * r, best.patch};
 }
 
 }  // namespace littoral::sph

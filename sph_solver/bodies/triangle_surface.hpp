@@ -31,6 +31,7 @@ class TriangleSurface {
     std::array<std::int32_t, 3> corner;
     Vector3 normal;                  // unit
     std::array<Vector3, 3> at_edge;  // sum of both faces' normals; edge k: corner k to the next
+    std::int32_t patch;              // as SurfacePoint has it
   };
   /// A box around a range of triangles; its halves are the nodes first and first + 1, or it is a leaf.
   struct Node {
@@ -43,6 +44,7 @@ class TriangleSurface {
   void check_edges(const std::string& name);
   void turn_outward();
   void find_normals();
+  void find_patches();
   void divide(std::size_t node);
   void search(std::size_t node, const Vector3& x, Nearest& best) const;
   void compare(std::size_t triangle, const Vector3& x, Nearest& best) const;

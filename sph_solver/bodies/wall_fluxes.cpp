@@ -2,6 +2,7 @@
 
 #include <type_traits>
 
+#include "bodies/smooth_walls.hpp"
 #include "bodies/wall_state.hpp"
 #include "physics/kernel.hpp"
 
@@ -15,9 +16,18 @@ using Variant = std::integral_constant<Reconstruction, variant>;
 template <int D, Reconstruction variant>
 struct OneSided {
   double c;
+  SmoothWalls<D> smooth{};
+  void begin_row(const PairSide<D>& i, const Dummies<D>& dummies, const WallList<D>& list, std::size_t row,
+                 const Vector<D>& x, WallView<D>& view, const Kernel<D>& kernel) {
+    smooth.gather(dummies, list, row, x, view, kernel,
+                  [&](const WallPlane<D>& wall) { return wall_excess<D, variant>(i, wall); });
+  }
   WallFace<D> operator()(const PairSide<D>& i, WallView<D>& view, std::size_t e, const Vector<D>& dx,
                          const Vector<D>& f) const {
-    return wall_face<D, variant>(i, view.plane(e), dx, f, c);
+    const auto wall = view.plane(e);
+    const double excess =
+        smooth.answer(wall, [&](const WallPlane<D>& own) { return wall_excess<D, variant>(i, own); });
+    return wall_face<D, variant>(i, wall, excess, dx, f, c);
   }
 };
 
@@ -28,6 +38,8 @@ struct TwoSided {
   const DummyStates<D>& states;
   LinearEos eos;
   double kernel_radius;
+  void begin_row(const PairSide<D>&, const Dummies<D>&, const WallList<D>&, std::size_t, const Vector<D>&,
+                 WallView<D>&, const Kernel<D>&) const {}
   WallFace<D> operator()(const PairSide<D>& i, WallView<D>&, std::size_t e, const Vector<D>& dx,
                          const Vector<D>& f) const {
     const double p = states.pressure(e);
@@ -39,42 +51,47 @@ struct TwoSided {
 template <int D, bool gradients_count, class Face>
 void loop(const Particles<D>& particles, const Gradients<D>& gradients, const Dummies<D>& dummies,
           const WallList<D>& list, const RowAccelerations<D>& mass_force, const Numerics<D>& numerics,
-          double level, std::size_t n_bodies, const Face& face_of, Rate<D>& rate, RowForces<D>& forces) {
+          double level, std::size_t n_bodies, const Face& shared, Rate<D>& rate, RowForces<D>& forces) {
   const Kernel<D> kernel(numerics.kernel_radius);
   const double R2 = kernel.R * kernel.R;
   const double V = dummies.volume();
   const auto n = static_cast<std::ptrdiff_t>(list.n_rows());
-#pragma omp parallel for schedule(static)
-  for (std::ptrdiff_t k = 0; k < n; ++k) {
-    const auto row = static_cast<std::size_t>(k);
-    const std::size_t i = list.particle(row);
-    const auto x = at<D>(particles.x, i);
-    PairSide<D> side{at<D>(particles.u, i), particles.p[i], particles.rho[i], {}, {}};
-    if constexpr (gradients_count) {
-      side.grad_p = at<D>(gradients.p, row);
-      for (std::size_t d = 0; d < D; ++d) side.grad_u[d] = at<D>(gradients.u[d], row);
-    }
-    WallView<D> view(dummies, list, row, x);
-    double volume = 0.0;
-    Vector<D> total{};
-    for (std::size_t pair = list.begin(row); pair < list.end(row); ++pair) {
-      const std::size_t e = list.dummy(pair);
-      Vector<D> dx = dummies[e].x;
-      for (std::size_t d = 0; d < D; ++d) dx[d] -= x[d];
-      const double r2 = dot_of<D>(dx, dx);
-      if (r2 >= R2) continue;                                    // most pairs of the skin
-      const double f = -V * kernel.slope_over_r(std::sqrt(r2));  // V grad W = f dx
-      const WallFace<D> face = face_of(side, view, e, dx, mass_force[row]);
-      volume += f * dot_of<D>(face.jump, dx);
-      auto& force = forces[row * n_bodies + static_cast<std::size_t>(dummies[e].body)];
-      for (std::size_t d = 0; d < D; ++d) {
-        const double push = 2.0 * particles.V[i] * f * (face.p - level) * dx[d];
-        force[d] += push;
-        total[d] += push;
+#pragma omp parallel
+  {
+    Face face_of = shared;
+#pragma omp for schedule(static)
+    for (std::ptrdiff_t k = 0; k < n; ++k) {
+      const auto row = static_cast<std::size_t>(k);
+      const std::size_t i = list.particle(row);
+      const auto x = at<D>(particles.x, i);
+      PairSide<D> side{at<D>(particles.u, i), particles.p[i], particles.rho[i], {}, {}};
+      if constexpr (gradients_count) {
+        side.grad_p = at<D>(gradients.p, row);
+        for (std::size_t d = 0; d < D; ++d) side.grad_u[d] = at<D>(gradients.u[d], row);
       }
+      WallView<D> view(dummies, list, row, x);
+      face_of.begin_row(side, dummies, list, row, x, view, kernel);
+      double volume = 0.0;
+      Vector<D> total{};
+      for (std::size_t pair = list.begin(row); pair < list.end(row); ++pair) {
+        const std::size_t e = list.dummy(pair);
+        Vector<D> dx = dummies[e].x;
+        for (std::size_t d = 0; d < D; ++d) dx[d] -= x[d];
+        const double r2 = dot_of<D>(dx, dx);
+        if (r2 >= R2) continue;                                    // most pairs of the skin
+        const double f = -V * kernel.slope_over_r(std::sqrt(r2));  // V grad W = f dx
+        const WallFace<D> face = face_of(side, view, e, dx, mass_force[row]);
+        volume += f * dot_of<D>(face.jump, dx);
+        auto& force = forces[row * n_bodies + static_cast<std::size_t>(dummies[e].body)];
+        for (std::size_t d = 0; d < D; ++d) {
+          const double push = 2.0 * particles.V[i] * f * (face.p - level) * dx[d];
+          force[d] += push;
+          total[d] += push;
+        }
+      }
+      rate.volume[i] += 2.0 * particles.V[i] * volume;
+      for (std::size_t d = 0; d < D; ++d) rate.acceleration[d][i] -= total[d] / particles.m[i];
     }
-    rate.volume[i] += 2.0 * particles.V[i] * volume;
-    for (std::size_t d = 0; d < D; ++d) rate.acceleration[d][i] -= total[d] / particles.m[i];
   }
 }
 

@@ -25,13 +25,15 @@ Vector<D> at(const std::array<std::vector<double>, D>& columns, std::size_t k) {
   return out;
 }
 
-/// The wall that a particle sees at one dummy: a plane.
+/// The wall that a particle sees at one dummy: a point of the surface and the plane that touches it there.
 template <int D>
 struct WallPlane {
-  Vector<D> n;      // out of the fluid
-  Vector<D> u;      // [m/s]
-  Vector<D> a;      // [m/s^2]
-  double distance;  // of the particle from the plane [m]
+  Vector<D> n;               // out of the fluid
+  Vector<D> u;               // of the point [m/s]
+  Vector<D> a;               // of the point [m/s^2]
+  Vector<D> way;             // from the particle to the point [m]
+  double distance;           // of the particle from the plane, way . n [m]
+  std::int32_t body, patch;  // as Dummies have them
 };
 
 /// The wall planes of one row. A dummy shows the plane of the surface next to it. Where the particle stands
@@ -51,6 +53,8 @@ class WallView {
     if (!found_) find_closest();
     return plane(closest_, distance_);
   }
+  /// The particle stands in front of the dummy's own plane.
+  bool in_front(std::size_t e) const { return distance(e) >= 0.0; }
   /// Of the closest dummy in front of which the particle stands.
   WallPlane<D> closest() {
     if (!found_) find_closest();
@@ -59,11 +63,12 @@ class WallView {
 
  private:
   WallPlane<D> of_sheet(std::size_t e) const {
-    Vector<D> n = dummies_.closest_on_sheet(e, x_);
-    for (std::size_t k = 0; k < D; ++k) n[k] -= x_[k];
-    const double d = std::sqrt(dot_of<D>(n, n));
+    Vector<D> way = dummies_.closest_on_sheet(e, x_);
+    for (std::size_t k = 0; k < D; ++k) way[k] -= x_[k];
+    const double d = std::sqrt(dot_of<D>(way, way));
+    Vector<D> n = way;
     for (double& component : n) component /= d;
-    return {n, dummies_[e].u, dummies_[e].a, d};
+    return {n, dummies_[e].u, dummies_[e].a, way, d, dummies_[e].body, -1};
   }
   double distance(std::size_t e) const {
     double d = 0.0;
@@ -71,7 +76,9 @@ class WallView {
     return d;
   }
   WallPlane<D> plane(std::size_t e, double d) const {
-    return {dummies_[e].normal, dummies_[e].u, dummies_[e].a, d};
+    Vector<D> way = dummies_[e].wall;
+    for (std::size_t k = 0; k < D; ++k) way[k] -= x_[k];
+    return {dummies_[e].normal, dummies_[e].u, dummies_[e].a, way, d, dummies_[e].body, dummies_[e].patch};
   }
   void find_closest() {
     found_ = true;

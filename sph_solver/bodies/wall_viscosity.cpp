@@ -39,7 +39,7 @@ void add_wall_friction(const Particles<D>& particles, const Gradients<D>& gradie
         if (linear) {
           const auto slope = at<D>(gradients.u[d], row);
           across = dot_of<D>(slope, dx);
-          to_wall = wall.distance * dot_of<D>(slope, wall.n);
+          to_wall = dot_of<D>(slope, wall.way);
         }
         approach += dx[d] * (across + 2.0 * (wall.u[d] - u[d] - to_wall));
       }

@@ -104,7 +104,7 @@ std::optional<SurfacePoint> gone_through(const Body& body, const BodyState& at_s
   if (Body::side(from) == Body::side(to) || !body.passage(from, to)) return std::nullopt;
   const Vector3 normal = body.state().rotation(Vector3{0.0, 0.0, -Body::side(from)});
   const double depth = std::fabs(to[2]);
-  return SurfacePoint{x - depth * normal, normal, -depth};
+  return SurfacePoint{x - depth * normal, normal, -depth, -1};
 }
 
 }  // namespace

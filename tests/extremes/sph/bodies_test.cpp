@@ -114,5 +114,75 @@ TEST(BodiesExtremesTest, ABodyThatOutrunsSoundEndsTheRunWithItsName) {
   }
 }
 
+/// A cylinder of five spacings, impulsively started in a closed channel of water without friction.
+struct Channel {
+  double t = 0.0, work = 0.0, drag_impulse = 0.0;  // on the water
+  Particles<2> particles;
+  Numerics<2> numerics;
+  std::unique_ptr<Dynamics<2>> dynamics;
+
+  explicit Channel(const char* speed, double stream) {
+    numerics.eos = {1.0, k_c, 0.0};
+    numerics.spacing = 1.0;
+    numerics.kernel_radius = 4.0;
+    numerics.skin = 0.4;
+    numerics.reference_velocity = 1.0;
+    using Side = support::Scene::Side;
+    DomainBox<2> box;
+    box.upper = {50.0, 25.0};
+    box.sides = {{{Side::periodic, Side::periodic}, {Side::symmetry, Side::symmetry}}};
+    Spec cylinder;
+    cylinder.name = "cylinder";
+    cylinder.shape = Spec::Shape::cylinder;
+    cylinder.radius = 5.0;
+    cylinder.position = {25, 0, 12.5};
+    cylinder.motion.given = true;
+    cylinder.motion.u = support::Formula(speed);
+    std::vector<Body> bodies;
+    bodies.emplace_back(cylinder, true, 0.2);
+    auto walls = std::make_unique<Walls<2>>(std::move(bodies), numerics, box, Lattice<2>{{}, 1.0});
+    particles =
+        test::cloud<2>({50, 25}, 1.0, 0.0, [&](const std::array<double, 2>& x) { return !walls->inside(x); });
+    for (std::size_t i = 0; i < particles.n_owned; ++i) particles.u[0][i] = stream;
+    dynamics = std::make_unique<Dynamics<2>>(numerics, box, nullptr, std::move(walls));
+  }
+  double kinetic_energy() const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < particles.n_owned; ++i)
+      sum += 0.5 * particles.m[i] *
+             (particles.u[0][i] * particles.u[0][i] + particles.u[1][i] * particles.u[1][i]);
+    return sum;
+  }
+  void run(double end) {
+    while (t < end) {
+      const double dt = std::min(dynamics->stable_time_step(), end - t);
+      dynamics->step(particles, t, dt, nullptr);
+      t += dt;
+      const double force = dynamics->walls()->loads()[0].pressure[0];
+      work -= dt * force * dynamics->walls()->bodies()[0].state().velocity[0];
+      drag_impulse -= dt * force;
+    }
+  }
+};
+
+TEST(BodiesExtremesTest, AMovedCylinderGivesTheWaterNoMoreThanItsWork) {
+  Channel channel("min(t/5,1)", 0.0);
+  channel.run(15.0);
+  const double energy = channel.kinetic_energy();
+  EXPECT_GT(channel.work, 0.0);  // it is held back by what it moves
+  EXPECT_LT(energy, channel.work);
+  // and keeps what an ideal fluid would have, rho pi r^2 U^2 / 2 in water without bounds
+  EXPECT_GT(energy, 0.8 * 0.5 * 3.14159 * 25.0);
+}
+
+TEST(BodiesExtremesTest, AStreamAboutAFixedCylinderLosesEnergyAndPushesItAlong) {
+  Channel channel("0*t", 1.0);
+  const double before = channel.kinetic_energy();
+  channel.run(15.0);
+  EXPECT_LT(channel.kinetic_energy(), before);
+  EXPECT_GT(channel.kinetic_energy(), 0.6 * before);
+  EXPECT_LT(channel.drag_impulse, 0.0);  // taken from the water
+}
+
 }  // namespace
 }  // namespace littoral::sph

@@ -44,6 +44,7 @@ TEST(BodiesTrianglesTest, BoxOfTrianglesIsTheBox) {
     for (const Body* body : {&read, &turned}) {
       const auto other = body->closest_wall(x);
       ASSERT_NEAR(wall.distance, other.distance, 1e-12);
+      ASSERT_EQ(other.patch, -1);  // of planes
       ASSERT_LT(norm(wall.point - other.point), 1e-12);
       ASSERT_LT(norm(wall.normal - other.normal), 1e-7);  // along a line that may be short
     }
@@ -71,6 +72,7 @@ TEST(BodiesTrianglesTest, NearestOfManyTriangles) {
   for (int k = 0; k < 3000; ++k) {
     const Vector3 x = {place(random), place(random), place(random)};
     EXPECT_NEAR(sphere->closest(x).distance, norm(x) - 1.0, 2e-3);
+    EXPECT_EQ(sphere->closest(x).patch, 0);  // round, without an edge
   }
 }
 
