@@ -59,7 +59,6 @@ void Dummies<D>::make(const Body& own, std::int32_t b, const Vector3& place, dou
     if (closest.distance > tolerance_ || closest.distance < -depth) return;
     const Rotation back = own.state().rotation.inverse();
     made_.push_back({b, local, own.to_local(closest.point), back(closest.normal), closest.patch});
-    any_smooth_ = any_smooth_ || closest.patch >= 0;
     return;
   }
   if (closest.distance > depth) return;

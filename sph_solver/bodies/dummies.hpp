@@ -46,6 +46,15 @@ class Dummies {
     for (std::size_t d = 0; d < D; ++d) point[d] = sign_[k][d] * (point[d] - offset_[k][d]);
     return point;
   }
+  /// A direction in the scene, as it is in the image that a copy belongs to.
+  std::array<double, D> turned(std::size_t k, const Vector3& direction) const {
+    std::array<double, D> out{};
+    for (std::size_t d = 0; d < D; ++d) out[d] = sign_[k][d] * direction[scene_axis<D>(d)];
+    return out;
+  }
+  bool same_image(std::size_t k, std::size_t l) const {
+    return sign_[k] == sign_[l] && offset_[k] == offset_[l];
+  }
   bool on_sheet(std::size_t k) const {
     return !sheets_.empty() && sheets_[static_cast<std::size_t>(dummies_[k].body)].given;
   }
@@ -64,7 +73,6 @@ class Dummies {
     std::int32_t body;
     std::int32_t patch;  // of its body's surface, as SurfacePoint has it
   };
-  bool any_smooth() const { return any_smooth_; }  ///< one belongs to a curved patch
   const Dummy& operator[](std::size_t k) const { return dummies_[k]; }
   const Columns& x() const { return x_; }  ///< of all, as cells are filled with them
 
@@ -92,7 +100,6 @@ class Dummies {
   DomainBox<D> box_;
   double tolerance_;  // [m] round-off of positions
   double volume_;
-  bool any_smooth_ = false;
   std::vector<Dummy> dummies_;
   Columns x_;
   std::vector<Made> made_;

@@ -22,16 +22,19 @@ using RowForces = std::vector<std::array<double, D>>;
 /// out   rate added to; forces (n_rows * n_bodies): the reaction, to the bit
 /// comm  local
 template <int D>
-void add_wall_fluxes(const Particles<D>& particles, const Gradients<D>& gradients, const Dummies<D>& dummies,
-                     const DummyStates<D>& states, const WallList<D>& list,
-                     const RowAccelerations<D>& mass_force, const Numerics<D>& numerics, double level,
-                     std::size_t n_bodies, Rate<D>& rate, RowForces<D>& forces);
+void add_wall_fluxes(const Particles<D>& particles, const Gradients<D>& gradients,
+                     const std::vector<Body>& bodies, const Dummies<D>& dummies, const DummyStates<D>& states,
+                     const WallList<D>& list, const RowAccelerations<D>& mass_force,
+                     const Numerics<D>& numerics, double level, std::size_t n_bodies, Rate<D>& rate,
+                     RowForces<D>& forces);
 
-extern template void add_wall_fluxes<2>(const Particles<2>&, const Gradients<2>&, const Dummies<2>&,
-                                        const DummyStates<2>&, const WallList<2>&, const RowAccelerations<2>&,
-                                        const Numerics<2>&, double, std::size_t, Rate<2>&, RowForces<2>&);
-extern template void add_wall_fluxes<3>(const Particles<3>&, const Gradients<3>&, const Dummies<3>&,
-                                        const DummyStates<3>&, const WallList<3>&, const RowAccelerations<3>&,
-                                        const Numerics<3>&, double, std::size_t, Rate<3>&, RowForces<3>&);
+extern template void add_wall_fluxes<2>(const Particles<2>&, const Gradients<2>&, const std::vector<Body>&,
+                                        const Dummies<2>&, const DummyStates<2>&, const WallList<2>&,
+                                        const RowAccelerations<2>&, const Numerics<2>&, double, std::size_t,
+                                        Rate<2>&, RowForces<2>&);
+extern template void add_wall_fluxes<3>(const Particles<3>&, const Gradients<3>&, const std::vector<Body>&,
+                                        const Dummies<3>&, const DummyStates<3>&, const WallList<3>&,
+                                        const RowAccelerations<3>&, const Numerics<3>&, double, std::size_t,
+                                        Rate<3>&, RowForces<3>&);
 
 }  // namespace littoral::sph

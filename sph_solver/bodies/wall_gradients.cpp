@@ -16,7 +16,8 @@ void add_outer(SymmetricMatrix<D>& B, double f, const Vector<D>& x) {
 }  // namespace
 
 template <int D>
-void find_known_slopes(const Particles<D>& particles, const Dummies<D>& dummies, const WallList<D>& list,
+void find_known_slopes(const Particles<D>& particles, const std::vector<Body>& bodies,
+                       const Dummies<D>& dummies, const WallList<D>& list,
                        const RowAccelerations<D>& mass_force, double kernel_radius, KnownSlopes<D>& known) {
   const Kernel<D> kernel(kernel_radius);
   const double R2 = kernel.R * kernel.R;
@@ -29,7 +30,7 @@ void find_known_slopes(const Particles<D>& particles, const Dummies<D>& dummies,
     const auto row = static_cast<std::size_t>(k);
     const std::size_t i = list.particle(row);
     const auto x = at<D>(particles.x, i);
-    WallView<D> view(dummies, list, row, x);
+    WallView<D> view(bodies, dummies, list, row, x);
     for (std::size_t pair = list.begin(row); pair < list.end(row); ++pair) {
       const std::size_t e = list.dummy(pair);
       Vector<D> dx = dummies[e].x;
@@ -47,9 +48,9 @@ void find_known_slopes(const Particles<D>& particles, const Dummies<D>& dummies,
   }
 }
 
-template void find_known_slopes<2>(const Particles<2>&, const Dummies<2>&, const WallList<2>&,
-                                   const RowAccelerations<2>&, double, KnownSlopes<2>&);
-template void find_known_slopes<3>(const Particles<3>&, const Dummies<3>&, const WallList<3>&,
-                                   const RowAccelerations<3>&, double, KnownSlopes<3>&);
+template void find_known_slopes<2>(const Particles<2>&, const std::vector<Body>&, const Dummies<2>&,
+                                   const WallList<2>&, const RowAccelerations<2>&, double, KnownSlopes<2>&);
+template void find_known_slopes<3>(const Particles<3>&, const std::vector<Body>&, const Dummies<3>&,
+                                   const WallList<3>&, const RowAccelerations<3>&, double, KnownSlopes<3>&);
 
 }  // namespace littoral::sph

@@ -12,12 +12,15 @@ namespace littoral::sph {
 /// exact for water at rest; a row of particles on a floor has a gradient along it. Velocities keep (S3).
 /// out   known: both sums over w, a row of the list each     comm  local
 template <int D>
-void find_known_slopes(const Particles<D>& particles, const Dummies<D>& dummies, const WallList<D>& list,
+void find_known_slopes(const Particles<D>& particles, const std::vector<Body>& bodies,
+                       const Dummies<D>& dummies, const WallList<D>& list,
                        const RowAccelerations<D>& mass_force, double kernel_radius, KnownSlopes<D>& known);
 
-extern template void find_known_slopes<2>(const Particles<2>&, const Dummies<2>&, const WallList<2>&,
-                                          const RowAccelerations<2>&, double, KnownSlopes<2>&);
-extern template void find_known_slopes<3>(const Particles<3>&, const Dummies<3>&, const WallList<3>&,
-                                          const RowAccelerations<3>&, double, KnownSlopes<3>&);
+extern template void find_known_slopes<2>(const Particles<2>&, const std::vector<Body>&, const Dummies<2>&,
+                                          const WallList<2>&, const RowAccelerations<2>&, double,
+                                          KnownSlopes<2>&);
+extern template void find_known_slopes<3>(const Particles<3>&, const std::vector<Body>&, const Dummies<3>&,
+                                          const WallList<3>&, const RowAccelerations<3>&, double,
+                                          KnownSlopes<3>&);
 
 }  // namespace littoral::sph

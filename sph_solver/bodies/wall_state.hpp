@@ -26,35 +26,22 @@ struct WallFace {
   double p;        // p_E [Pa]
 };
 
-/// Velocity into the wall that its reaction takes away (S12) [m/s]:
-///   e = (u_i + grad u_i . way - u_w) . n     (way: to the wall's point; the change limited against u_w -
-///   u_i)
-/// First order: the slope is zero. Flat walls (no patch) are the same everywhere: the way there is that along
-/// n.
-template <int D, Reconstruction variant>
-inline double wall_excess(const PairSide<D>& i, const WallPlane<D>& wall) {
-  const double excess = dot_of<D>(i.u, wall.n) - dot_of<D>(wall.u, wall.n);
-  if constexpr (variant == Reconstruction::first_order) return excess;
-  double change = 0.0;
-  for (std::size_t d = 0; d < D; ++d)
-    change += wall.n[d] * (wall.patch < 0 ? wall.distance * dot_of<D>(i.grad_u[d], wall.n)
-                                          : dot_of<D>(i.grad_u[d], wall.way));
-  return excess + 0.5 * limited_difference<variant>(2.0 * change, -2.0 * excess);
-}
-
 /// One-sided Riemann problem (S12). The particle's state is carried on linearly by its gradients, only the
-/// pressure's slope along the normal is the wall's, rho (f - a_w) . n (f: mass force), and at the wall it
-/// meets its mirror image about the wall's velocity. The star state takes the excess e away:
+/// pressure's slope along the normal is the wall's, rho (f - a_w) . n (f: mass force), and to the wall the
+/// velocity
+///   u_n^L = (u_i + d grad u_i . n) . n       (d: distance from the wall; limited against u_w - u_i)
+/// meets its mirror image about the wall's. The star state takes the difference e = u_n^L - u_w . n away:
 ///   u_E = u_i + grad u_i . dx/2 - e n,   p_E = p_i + grad p . dx/2 + rho c e,
 /// so that a field that satisfies the wall's conditions is carried through it unchanged. First order: the
 /// slopes are zero, but that of the pressure rho (f - a_w). Whatever the pairs of particles use, a wall
 /// answers with the full impedance rho c: it alone keeps particles out. dx: from the particle to the dummy
 template <int D, Reconstruction variant>
-inline WallFace<D> wall_face(const PairSide<D>& i, const WallPlane<D>& wall, double excess,
-                             const Vector<D>& dx, const Vector<D>& f, double c) {
+inline WallFace<D> wall_face(const PairSide<D>& i, const WallPlane<D>& wall, const Vector<D>& dx,
+                             const Vector<D>& f, double c) {
   WallFace<D> face{};
   Vector<D> still;  // slope of the pressure in water at rest with the wall
   for (std::size_t d = 0; d < D; ++d) still[d] = i.rho * (f[d] - wall.a[d]);
+  double excess = dot_of<D>(i.u, wall.n) - dot_of<D>(wall.u, wall.n);
   face.p = i.p;
   if constexpr (variant == Reconstruction::first_order) {
     face.p += 0.5 * dot_of<D>(still, dx);
@@ -62,7 +49,12 @@ inline WallFace<D> wall_face(const PairSide<D>& i, const WallPlane<D>& wall, dou
     const double along = dot_of<D>(dx, wall.n);
     face.p += 0.5 * (dot_of<D>(i.grad_p, dx) + along * dot_of<D>(still, wall.n) -
                      along * dot_of<D>(i.grad_p, wall.n));
-    for (std::size_t d = 0; d < D; ++d) face.jump[d] = 0.5 * dot_of<D>(i.grad_u[d], dx);
+    double slope = 0.0;
+    for (std::size_t d = 0; d < D; ++d) {
+      face.jump[d] = 0.5 * dot_of<D>(i.grad_u[d], dx);
+      slope += wall.n[d] * dot_of<D>(i.grad_u[d], wall.n);
+    }
+    excess += 0.5 * limited_difference<variant>(2.0 * wall.distance * slope, -2.0 * excess);
   }
   for (std::size_t d = 0; d < D; ++d) face.jump[d] -= excess * wall.n[d];
   face.p += i.rho * c * excess;

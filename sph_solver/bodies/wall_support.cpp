@@ -83,7 +83,7 @@ void WallSupport<D>::find(const Particles<D>& particles, const NeighborList<D>& 
       const std::size_t i = list.particle(row);
       const auto x = at<D>(particles.x, i);
       around.gather(particles, neighbors, i);
-      WallView<D> view(dummies, list, row, x);
+      WallView<D> view(bodies, dummies, list, row, x);
       const auto closest = view.closest();
       normal_[row] = closest.n;
       close_[row] = closest.distance < 0.5 * spacing;
@@ -101,7 +101,7 @@ void WallSupport<D>::find(const Particles<D>& particles, const NeighborList<D>& 
           for (std::size_t d = 0; d < D; ++d) mirror[d] = x[d] + dx[d] - (depth + off) * wall.n[d];
           return around.any_near(mirror, k_wet_within<D> * spacing) || is_body<D>(bodies, mirror, spacing);
         };
-        if (free_surface && !wet_before(view.plane(e))) continue;
+        if (free_surface && !wet_before(view.plane_of_dummy(e))) continue;
         wet_[pair] = 1;
         std::size_t m = 0;
         for (std::size_t a = 0; a < D; ++a) {

@@ -25,36 +25,45 @@ Vector<D> at(const std::array<std::vector<double>, D>& columns, std::size_t k) {
   return out;
 }
 
-/// The wall that a particle sees at one dummy: a point of the surface and the plane that touches it there.
+/// The wall that a particle sees at one dummy: a plane.
 template <int D>
 struct WallPlane {
-  Vector<D> n;               // out of the fluid
-  Vector<D> u;               // of the point [m/s]
-  Vector<D> a;               // of the point [m/s^2]
-  Vector<D> way;             // from the particle to the point [m]
-  double distance;           // of the particle from the plane, way . n [m]
-  std::int32_t body, patch;  // as Dummies have them
+  Vector<D> n;      // out of the fluid
+  Vector<D> u;      // [m/s]
+  Vector<D> a;      // [m/s^2]
+  double distance;  // of the particle from the plane [m]
 };
 
 /// The wall planes of one row. A dummy shows the plane of the surface next to it. Where the particle stands
 /// behind that plane (the far face at a convex edge) it sees the plane of the closest dummy in front of which
-/// it stands; if there is none (it has just entered the body), the plane it is least behind. Of a sheet it
-/// sees the plane at the point closest to itself, square to the way there: the edge of a sheet is round.
+/// it stands; if there is none (it has just entered the body), the plane it is least behind. Of a sheet and
+/// of a curved patch it sees the plane at the point closest to itself, square to the way there (the edge of a
+/// sheet is round), but for a patch's dummies that face the other way (a pipe has two sides). Planes of a
+/// patch's dummies will not do: a particle that slides along a convex wall leaves those ahead and enters
+/// those behind, and their answers rho c e would pull it forward at the rate c U / radius, whatever the
+/// spacing; carrying u to each dummy's point instead leaves as much of that as the gradients are wrong.
 template <int D>
 class WallView {
  public:
-  WallView(const Dummies<D>& dummies, const WallList<D>& list, std::size_t row, const Vector<D>& x)
-      : dummies_(dummies), list_(list), row_(row), x_(x) {}
+  WallView(const std::vector<Body>& bodies, const Dummies<D>& dummies, const WallList<D>& list,
+           std::size_t row, const Vector<D>& x)
+      : bodies_(bodies), dummies_(dummies), list_(list), row_(row), x_(x) {}
 
   WallPlane<D> plane(std::size_t e) {
+    if (dummies_[e].patch >= 0) {
+      const Own& own = of_patch(e);
+      if (own.given && dot_of<D>(own.plane.n, dummies_[e].normal) > 0.0) return own.plane;
+    }
+    return plane_of_dummy(e);
+  }
+  /// The plane next to the dummy, whatever the particle's place on a patch.
+  WallPlane<D> plane_of_dummy(std::size_t e) {
     const double d = distance(e);
     if (d > 0.0 && dummies_.on_sheet(e)) return of_sheet(e);
     if (d >= 0.0) return plane(e, d);
     if (!found_) find_closest();
     return plane(closest_, distance_);
   }
-  /// The particle stands in front of the dummy's own plane.
-  bool in_front(std::size_t e) const { return distance(e) >= 0.0; }
   /// Of the closest dummy in front of which the particle stands.
   WallPlane<D> closest() {
     if (!found_) find_closest();
@@ -62,13 +71,34 @@ class WallView {
   }
 
  private:
+  /// What the particle sees of one patch; given: its closest point of the body belongs to the patch.
+  struct Own {
+    std::size_t dummy;  // one of the patch
+    bool given;
+    WallPlane<D> plane;
+  };
+  const Own& of_patch(std::size_t e) {
+    for (std::size_t k = 0; k < n_own_; ++k) {
+      const std::size_t known = own_[k].dummy;
+      if (dummies_[known].body == dummies_[e].body && dummies_[known].patch == dummies_[e].patch &&
+          dummies_.same_image(known, e))
+        return own_[k];
+    }
+    Own& own = own_[n_own_ < own_.size() ? n_own_++ : n_own_ - 1];  // seldom more: then found anew
+    own.dummy = e;
+    const Body& body = bodies_[static_cast<std::size_t>(dummies_[e].body)];
+    const SurfacePoint wall = body.closest_wall(in_scene<D>(dummies_.in_source(e, x_)));
+    own.given = wall.patch == dummies_[e].patch;
+    own.plane = {dummies_.turned(e, wall.normal), dummies_.turned(e, body.state().velocity_at(wall.point)),
+                 dummies_.turned(e, body.state().acceleration_at(wall.point)), wall.distance};
+    return own;
+  }
   WallPlane<D> of_sheet(std::size_t e) const {
-    Vector<D> way = dummies_.closest_on_sheet(e, x_);
-    for (std::size_t k = 0; k < D; ++k) way[k] -= x_[k];
-    const double d = std::sqrt(dot_of<D>(way, way));
-    Vector<D> n = way;
+    Vector<D> n = dummies_.closest_on_sheet(e, x_);
+    for (std::size_t k = 0; k < D; ++k) n[k] -= x_[k];
+    const double d = std::sqrt(dot_of<D>(n, n));
     for (double& component : n) component /= d;
-    return {n, dummies_[e].u, dummies_[e].a, way, d, dummies_[e].body, -1};
+    return {n, dummies_[e].u, dummies_[e].a, d};
   }
   double distance(std::size_t e) const {
     double d = 0.0;
@@ -76,9 +106,7 @@ class WallView {
     return d;
   }
   WallPlane<D> plane(std::size_t e, double d) const {
-    Vector<D> way = dummies_[e].wall;
-    for (std::size_t k = 0; k < D; ++k) way[k] -= x_[k];
-    return {dummies_[e].normal, dummies_[e].u, dummies_[e].a, way, d, dummies_[e].body, dummies_[e].patch};
+    return {dummies_[e].normal, dummies_[e].u, dummies_[e].a, d};
   }
   void find_closest() {
     found_ = true;
@@ -100,6 +128,7 @@ class WallView {
     }
   }
 
+  const std::vector<Body>& bodies_;
   const Dummies<D>& dummies_;
   const WallList<D>& list_;
   std::size_t row_;
@@ -107,6 +136,8 @@ class WallView {
   bool found_ = false;
   std::size_t closest_ = 0;
   double distance_ = 0.0;
+  std::array<Own, 4> own_;
+  std::size_t n_own_ = 0;
 };
 
 }  // namespace littoral::sph

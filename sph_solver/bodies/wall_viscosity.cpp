@@ -9,8 +9,9 @@ namespace littoral::sph {
 
 template <int D>
 void add_wall_friction(const Particles<D>& particles, const Gradients<D>& gradients,
-                       const Dummies<D>& dummies, const WallList<D>& list, const Numerics<D>& numerics,
-                       const std::vector<char>& sticks, Rate<D>& rate, RowForces<D>& forces) {
+                       const std::vector<Body>& bodies, const Dummies<D>& dummies, const WallList<D>& list,
+                       const Numerics<D>& numerics, const std::vector<char>& sticks, Rate<D>& rate,
+                       RowForces<D>& forces) {
   const Kernel<D> kernel(numerics.kernel_radius);
   const double least = k_least_distance * k_least_distance * kernel.R * kernel.R;
   const double mu = numerics.eos.rho0 * numerics.viscosity;
@@ -22,7 +23,7 @@ void add_wall_friction(const Particles<D>& particles, const Gradients<D>& gradie
     const auto row = static_cast<std::size_t>(k);
     const std::size_t i = list.particle(row);
     const auto x = at<D>(particles.x, i), u = at<D>(particles.u, i);
-    WallView<D> view(dummies, list, row, x);
+    WallView<D> view(bodies, dummies, list, row, x);
     for (std::size_t pair = list.begin(row); pair < list.end(row); ++pair) {
       const std::size_t e = list.dummy(pair);
       const auto body = static_cast<std::size_t>(dummies[e].body);
@@ -39,7 +40,7 @@ void add_wall_friction(const Particles<D>& particles, const Gradients<D>& gradie
         if (linear) {
           const auto slope = at<D>(gradients.u[d], row);
           across = dot_of<D>(slope, dx);
-          to_wall = dot_of<D>(slope, wall.way);
+          to_wall = wall.distance * dot_of<D>(slope, wall.n);
         }
         approach += dx[d] * (across + 2.0 * (wall.u[d] - u[d] - to_wall));
       }
@@ -53,11 +54,11 @@ void add_wall_friction(const Particles<D>& particles, const Gradients<D>& gradie
   }
 }
 
-template void add_wall_friction<2>(const Particles<2>&, const Gradients<2>&, const Dummies<2>&,
-                                   const WallList<2>&, const Numerics<2>&, const std::vector<char>&, Rate<2>&,
-                                   RowForces<2>&);
-template void add_wall_friction<3>(const Particles<3>&, const Gradients<3>&, const Dummies<3>&,
-                                   const WallList<3>&, const Numerics<3>&, const std::vector<char>&, Rate<3>&,
-                                   RowForces<3>&);
+template void add_wall_friction<2>(const Particles<2>&, const Gradients<2>&, const std::vector<Body>&,
+                                   const Dummies<2>&, const WallList<2>&, const Numerics<2>&,
+                                   const std::vector<char>&, Rate<2>&, RowForces<2>&);
+template void add_wall_friction<3>(const Particles<3>&, const Gradients<3>&, const std::vector<Body>&,
+                                   const Dummies<3>&, const WallList<3>&, const Numerics<3>&,
+                                   const std::vector<char>&, Rate<3>&, RowForces<3>&);
 
 }  // namespace littoral::sph

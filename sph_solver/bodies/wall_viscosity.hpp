@@ -12,14 +12,15 @@ namespace littoral::sph {
 /// in    gradients.u of the rows; sticks: of each body     out  rate and forces added to      comm  local
 template <int D>
 void add_wall_friction(const Particles<D>& particles, const Gradients<D>& gradients,
-                       const Dummies<D>& dummies, const WallList<D>& list, const Numerics<D>& numerics,
-                       const std::vector<char>& sticks, Rate<D>& rate, RowForces<D>& forces);
+                       const std::vector<Body>& bodies, const Dummies<D>& dummies, const WallList<D>& list,
+                       const Numerics<D>& numerics, const std::vector<char>& sticks, Rate<D>& rate,
+                       RowForces<D>& forces);
 
-extern template void add_wall_friction<2>(const Particles<2>&, const Gradients<2>&, const Dummies<2>&,
-                                          const WallList<2>&, const Numerics<2>&, const std::vector<char>&,
-                                          Rate<2>&, RowForces<2>&);
-extern template void add_wall_friction<3>(const Particles<3>&, const Gradients<3>&, const Dummies<3>&,
-                                          const WallList<3>&, const Numerics<3>&, const std::vector<char>&,
-                                          Rate<3>&, RowForces<3>&);
+extern template void add_wall_friction<2>(const Particles<2>&, const Gradients<2>&, const std::vector<Body>&,
+                                          const Dummies<2>&, const WallList<2>&, const Numerics<2>&,
+                                          const std::vector<char>&, Rate<2>&, RowForces<2>&);
+extern template void add_wall_friction<3>(const Particles<3>&, const Gradients<3>&, const std::vector<Body>&,
+                                          const Dummies<3>&, const WallList<3>&, const Numerics<3>&,
+                                          const std::vector<char>&, Rate<3>&, RowForces<3>&);
 
 }  // namespace littoral::sph

@@ -189,17 +189,18 @@ void Walls<D>::begin_stage(const Particles<D>& particles, double t, OtherRanks<D
 
 template <int D>
 const KnownSlopes<D>& Walls<D>::known_slopes(const Particles<D>& particles) {
-  find_known_slopes<D>(particles, dummies_, list_, mass_force_, numerics_.kernel_radius, known_);
+  find_known_slopes<D>(particles, bodies_, dummies_, list_, mass_force_, numerics_.kernel_radius, known_);
   return known_;
 }
 
 template <int D>
 void Walls<D>::add_rates(const Particles<D>& particles, double level, Rate<D>& rate) {
   level_ = level;
-  add_wall_fluxes<D>(particles, gradients_, dummies_, states_, list_, mass_force_, numerics_, level,
+  add_wall_fluxes<D>(particles, gradients_, bodies_, dummies_, states_, list_, mass_force_, numerics_, level,
                      bodies_.size(), rate, pressure_);
   if (any_sticks_)
-    add_wall_friction<D>(particles, gradients_, dummies_, list_, numerics_, sticks_, rate, friction_);
+    add_wall_friction<D>(particles, gradients_, bodies_, dummies_, list_, numerics_, sticks_, rate,
+                         friction_);
 }
 
 template <int D>

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "bodies/triangle_surface.hpp"
 #include "bodies/wall_view.hpp"
 #include "bodies_models.hpp"
 #include "physics/dynamics.hpp"
@@ -21,7 +22,7 @@ struct RoundBody {
   Vector<D> centre;
 
   template <class Velocity>
-  RoundBody(int n, double radius, Spec::Fluid fluid, const Velocity& velocity) {
+  RoundBody(int n, double radius, Spec::Fluid fluid, const Velocity& velocity, bool triangles = false) {
     numerics.gravity = {};
     Spec spec;
     spec.name = "round";
@@ -30,7 +31,14 @@ struct RoundBody {
     spec.fluid = fluid;
     centre.fill(0.5 * n + 0.2);  // no point of symmetry of the lattice
     for (std::size_t d = 0; d < D; ++d) spec.position[scene_axis<D>(d)] = centre[d];
-    auto walls = walls_of<D>({spec}, numerics, open_box<D>(n));
+    std::shared_ptr<const TriangleSurface> surface;
+    if (triangles) {
+      spec.shape = Spec::Shape::stl;
+      surface = std::make_shared<const TriangleSurface>(ball_of_triangles(radius, 20, 40), "ball.stl");
+    }
+    std::vector<Body> bodies;
+    bodies.emplace_back(spec, D == 2, 0.1, surface);
+    auto walls = std::make_unique<Walls<D>>(std::move(bodies), numerics, open_box<D>(n), Lattice<D>{{}, 1.0});
     std::array<int, D> cells;
     cells.fill(n);
     particles = cloud<D>(cells, 1.0, 0.0, [&](const Vector<D>& x) { return !walls->inside(x); });
@@ -59,9 +67,10 @@ Vector<D> stream_about(double radius, const Vector<D>& x) {
 }
 
 template <int D>
-void expect_no_energy_from_a_round_wall(int n, double radius) {
-  const RoundBody<D> water(n, radius, Spec::Fluid::outside,
-                           [&](const Vector<D>& x) { return stream_about<D>(radius, x); });
+void expect_no_energy_from_a_round_wall(int n, double radius, bool triangles = false) {
+  const RoundBody<D> water(
+      n, radius, Spec::Fluid::outside, [&](const Vector<D>& x) { return stream_about<D>(radius, x); },
+      triangles);
   double power = 0.0, most = 0.0;
   for (std::size_t i = 0; i < water.particles.n_owned; ++i) {
     if (!water.sees_wall(i)) continue;
@@ -85,6 +94,9 @@ TEST(BodiesCurvedTest, WaterThatSlidesAlongACylinderGetsNoEnergy) {
 }
 TEST(BodiesCurvedTest, WaterThatSlidesAlongASphereGetsNoEnergy) {
   expect_no_energy_from_a_round_wall<3>(20, 4.0);
+}
+TEST(BodiesCurvedTest, WaterThatSlidesAlongABallOfTrianglesGetsNoEnergy) {
+  expect_no_energy_from_a_round_wall<3>(20, 4.0, true);
 }
 
 TEST(BodiesCurvedTest, WaterThatTurnsInARoundTankFeelsNoWall) {

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <vector>
 
+#include "bodies/triangle_surface.hpp"
 #include "bodies/walls.hpp"
 #include "clouds.hpp"
 #include "physics/dynamics.hpp"
@@ -62,6 +64,23 @@ Particles<D> still_water(int n) {
   auto particles = cloud<D>(cells, 1.0);
   for (std::size_t i = 0; i < particles.n_owned; ++i) particles.p[i] = k_g * (n - particles.x[D - 1][i]);
   return particles;
+}
+
+/// 2 x rows x columns triangles, round to 1 - cos(pi/columns) of its radius.
+inline TriangleSoup ball_of_triangles(double radius, int rows, int columns) {
+  const double pi = std::acos(-1.0);
+  const auto corner = [&](int r, int c) {
+    const double polar = pi * r / rows, turn = 2.0 * pi * (c % columns) / columns;
+    const double s = r == 0 || r == rows ? 0.0 : std::sin(polar);
+    return Vector3{radius * s * std::cos(turn), radius * s * std::sin(turn), radius * std::cos(polar)};
+  };
+  TriangleSoup soup;
+  for (int r = 0; r < rows; ++r)
+    for (int c = 0; c < columns; ++c) {
+      soup.push_back({corner(r, c), corner(r + 1, c), corner(r + 1, c + 1)});
+      soup.push_back({corner(r, c), corner(r + 1, c + 1), corner(r, c + 1)});
+    }
+  return soup;
 }
 
 }  // namespace test

@@ -53,20 +53,7 @@ TEST(BodiesTrianglesTest, BoxOfTrianglesIsTheBox) {
 
 TEST(BodiesTrianglesTest, NearestOfManyTriangles) {
   // a sphere of 2 x 40 x 80 triangles is round to 1 - cos(pi/80) of its radius
-  const int rows = 40, columns = 80;
-  const double pi = std::acos(-1.0);
-  const auto corner = [&](int r, int c) {
-    const double polar = pi * r / rows, turn = 2.0 * pi * (c % columns) / columns;
-    const double s = r == 0 || r == rows ? 0.0 : std::sin(polar);
-    return Vector3{s * std::cos(turn), s * std::sin(turn), std::cos(polar)};
-  };
-  TriangleSoup soup;
-  for (int r = 0; r < rows; ++r)
-    for (int c = 0; c < columns; ++c) {
-      soup.push_back({corner(r, c), corner(r + 1, c), corner(r + 1, c + 1)});
-      soup.push_back({corner(r, c), corner(r + 1, c + 1), corner(r, c + 1)});
-    }
-  const auto sphere = surface(soup);
+  const auto sphere = surface(test::ball_of_triangles(1.0, 40, 80));
   std::mt19937 random(7);
   std::uniform_real_distribution<double> place(-1.5, 1.5);
   for (int k = 0; k < 3000; ++k) {
