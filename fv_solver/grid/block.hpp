@@ -84,8 +84,19 @@ struct Block {
   Field reference_pressure;            // [Pa] hydrostatic P(x), ghosts included: see physics/fluid.hpp
   std::vector<CellStatus> status;      // ghosts: fringe
   Field solved;                        // 1 where the rows are solved (computed, forced), else 0; ghosts 0
+  Field counted;                       // of overlapping grids: see counted_share; else empty
   std::vector<Window<D>> windows;      // cover every face once
 };
+
+/// Share of a cell's volume that integrals over the water count: 1 in solved cells; of overlapping grids the part
+/// that no grid above it has (overset/assembly.hpp); 0 in cells of a partner. pure
+template <int D>
+double counted_share(const Block<D>& block, std::size_t c) {
+  const CellStatus status = block.status[c];
+  if (status == CellStatus::blanked || status == CellStatus::fringe) return 0.0;
+  if (!block.counted.empty()) return block.counted[c];
+  return status == CellStatus::interpolated ? 0.0 : 1.0;
+}
 
 /// "(i,j,k)" of a cell in the uncut block. pure
 template <int D>

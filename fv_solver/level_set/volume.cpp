@@ -70,9 +70,7 @@ double water_volume(const std::vector<Block<D>>& blocks, const std::vector<Field
     wet_shares(blocks[b], phi[b], share);
     for_each_index<D>({}, blocks[b].extent.n, [&](const std::array<int, D>& index) {
       const auto c = static_cast<std::size_t>(blocks[b].extent.at(index));
-      const CellStatus status = blocks[b].status[c];
-      if (status == CellStatus::computed || status == CellStatus::forced)
-        sum += share[c] * blocks[b].volume[c];
+      sum += counted_share(blocks[b], c) * share[c] * blocks[b].volume[c];
     });
   }
   return sum;

@@ -17,8 +17,7 @@ double wet_share(double value, std::array<double, D> slope);
 template <int D>
 void wet_shares(const Block<D>& block, const Field& phi, Field& share);
 
-/// Volume of the water in the solved cells (computed, forced) of these blocks [m^D]; where two overlapping
-/// blocks both solve, it counts twice, as other integrals do.
+/// Volume of the water in the counted cells (counted_share) of these blocks [m^D].
 template <int D>
 double water_volume(const std::vector<Block<D>>& blocks, const std::vector<Field>& phi);
 

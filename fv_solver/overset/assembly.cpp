@@ -60,6 +60,7 @@ class Assembler {
     set_statuses();
     OversetAssembly<D> result;
     find_links(result);
+    for (std::size_t c = 0; c < n_components_; ++c) share_out(c);
     describe(result);
     return result;
   }
@@ -165,6 +166,94 @@ class Assembler {
     result.links = find_donors<D>(overlap_blocks(0), sources_, receivers, false, orphans);
     if (!orphans.empty()) complain(orphans);
     result.n_interpolated = static_cast<long>(receivers.size());
+  }
+
+  /// What a component counts of its cells. The region of a component above others is what its solved cells
+  /// can interpolate; a place belongs to the highest component whose region it lies in, so no volume is
+  /// counted twice or not at all. Cells that the edge of a region crosses are sampled. post find_links
+  void share_out(std::size_t component) {
+    const std::vector<std::size_t> own = blocks_of(component);
+    std::vector<std::size_t> above;
+    for (std::size_t c = component + 1; c < n_components_; ++c)
+      for (const std::size_t b : blocks_of(c)) above.push_back(b);
+    const bool lies_over =
+        std::any_of(own.begin(), own.end(), [&](std::size_t b) { return any_overset(blocks_[b]); });
+    const std::vector<OverlapBlock<D>> solved = overlap_blocks(0);
+    const auto mine = [&](const std::vector<std::array<double, D>>& place) {
+      std::vector<std::uint8_t> is(place.size(), 1);
+      if (lies_over) is = covered<D>(solved, sources_, own, place);
+      if (above.empty()) return is;
+      const auto theirs = covered<D>(solved, sources_, above, place);
+      for (std::size_t i = 0; i < is.size(); ++i) is[i] = is[i] != 0 && theirs[i] == 0 ? 1 : 0;
+      return is;
+    };
+    std::vector<CellName<D>> cell;
+    std::vector<std::array<double, D>> place;
+    for (const std::size_t b : own) {
+      blocks_[b].counted.assign(blocks_[b].extent.size, 0.0);
+      for_each_index<D>({}, blocks_[b].extent.n, [&](const std::array<int, D>& index) {
+        const std::ptrdiff_t c = blocks_[b].extent.at(index);
+        if (blocks_[b].status[static_cast<std::size_t>(c)] == CellStatus::blanked) return;
+        cell.push_back({b, c});
+        place.push_back(centre<D>(blocks_[b], c));
+      });
+    }
+    // deep inside its own grid a cell is counted even beside a wall, whose half cell nobody can interpolate
+    const auto deep = [&](const CellName<D>& name) {
+      return !at_front(name.block, name.cell, options_.fringe_layers + 1);
+    };
+    std::vector<std::uint8_t> in = mine(place);
+    if (above.empty())
+      for (std::size_t i = 0; i < cell.size(); ++i)
+        if (deep(cell[i])) in[i] = 1;
+    Layers<D> from_in(blocks_, sources_), from_out(blocks_, sources_);
+    for (std::size_t i = 0; i < cell.size(); ++i) {
+      blocks_[cell[i].block].counted[static_cast<std::size_t>(cell[i].cell)] = in[i];
+      (in[i] != 0 ? from_in : from_out).set(cell[i].block, cell[i].cell, 0);
+    }
+    for (Layers<D>* layers : {&from_in, &from_out})
+      layers->spread(1, [](std::size_t, std::ptrdiff_t) { return true; });
+    std::vector<CellName<D>> crossed;
+    place.clear();
+    for (std::size_t i = 0; i < cell.size(); ++i) {
+      const auto& [b, c] = cell[i];
+      if ((in[i] != 0 ? from_out : from_in).at(b, c) != 1 || (above.empty() && deep(cell[i]))) continue;
+      crossed.push_back(cell[i]);
+      add_samples(blocks_[b], c, place);
+    }
+    if (crossed.empty()) return;
+    const std::vector<std::uint8_t> sample = mine(place);
+    const std::size_t per_cell = sample.size() / crossed.size();
+    for (std::size_t i = 0; i < crossed.size(); ++i) {
+      double& share = blocks_[crossed[i].block].counted[static_cast<std::size_t>(crossed[i].cell)];
+      share = 0.0;
+      for (std::size_t s = 0; s < per_cell; ++s)
+        share += static_cast<double>(sample[i * per_cell + s]) / static_cast<double>(per_cell);
+    }
+  }
+
+  /// Places spread evenly over a cell, the same number for each.
+  static void add_samples(const Block<D>& block, std::ptrdiff_t c,
+                          std::vector<std::array<double, D>>& place) {
+    constexpr int k_a_direction = D == 2 ? 8 : 4;
+    const std::ptrdiff_t n = block.node_extent.at(block.extent.index(c));
+    std::array<int, D> count;
+    count.fill(k_a_direction);
+    for_each_index<D>({}, count, [&](const std::array<int, D>& index) {
+      std::array<double, D> x{};
+      for (std::size_t corner = 0; corner < (1u << D); ++corner) {
+        std::ptrdiff_t m = n;
+        double weight = 1.0;
+        for (std::size_t d = 0; d < D; ++d) {
+          const double along = (index[d] + 0.5) / k_a_direction;
+          const bool upper = (corner >> d) & 1;
+          m += upper ? block.node_extent.stride[d] : 0;
+          weight *= upper ? along : 1.0 - along;
+        }
+        for (std::size_t k = 0; k < D; ++k) x[k] += weight * block.node[k][static_cast<std::size_t>(m)];
+      }
+      place.push_back(x);
+    });
   }
 
   [[noreturn]] void complain(const std::vector<CellName<D>>& orphans) const {

@@ -36,7 +36,7 @@ GhostSources<D> ghost_sources(const std::vector<Block<D>>& blocks);
 ///     a wall of any other component, belongs to a hole;
 ///   - of a hole the first `fringe_layers` layers beside solved cells are interpolated, the rest is blanked;
 ///   - donors are solved cells only.
-/// in/out block.status, block.solved. Grids without `overset` windows are left as they are.
+/// in/out block.status, block.solved, block.counted. Grids without `overset` windows are left as they are.
 /// throws ConfigError naming cells and places that find no donor: orphans
 template <int D>
 OversetAssembly<D> assemble_overset(std::vector<Block<D>>& blocks, const OversetOptions& options);

@@ -54,6 +54,7 @@ class Cutter {
     }
     copy(from.volume, block.volume);
     copy(from.width, block.width);
+    if (!from.counted.empty()) copy(from.counted, block.counted);
     block.status.assign(block.extent.size, CellStatus::fringe);
     for_each_place<D>(block.extent, from.extent, piece.lower, false,
                       [&](std::size_t here, std::size_t there) { block.status[here] = from.status[there]; });

@@ -11,13 +11,11 @@ namespace littoral::fv {
 
 template <int D>
 Field outside_share(const Block<D>& block, const std::vector<coupler::Box>& regions, const Field* wet) {
-  Field share = block.solved;
-  if (wet != nullptr)
-    for_each_index<D>({}, block.extent.n, [&](const std::array<int, D>& index) {
-      const auto c = static_cast<std::size_t>(block.extent.at(index));
-      const CellStatus s = block.status[c];
-      share[c] = s == CellStatus::computed || s == CellStatus::forced ? (*wet)[c] : 0.0;
-    });
+  Field share(block.extent.size, 0.0);
+  for_each_index<D>({}, block.extent.n, [&](const std::array<int, D>& index) {
+    const auto c = static_cast<std::size_t>(block.extent.at(index));
+    share[c] = counted_share(block, c) * (wet != nullptr ? (*wet)[c] : 1.0);
+  });
   if (regions.empty()) return share;
   for_each_index<D>({}, block.extent.n, [&](const std::array<int, D>& index) {
     const auto c = static_cast<std::size_t>(block.extent.at(index));

@@ -127,7 +127,13 @@ template <int D>
 void measure_steps(const std::string& name, Stepper<D>& stepper, double dt) {
   for (int step = 0; step < 3; ++step) stepper.advance(dt);  // the start is not what is measured
   constexpr int k_steps = 5;
+  const auto surface_seconds = [&] {
+    for (const auto& [phase, spent] : stepper.phases().table())
+      if (phase == "surface") return spent;
+    return 0.0;
+  };
   int cycles = 0;
+  const double start = now(), surface_start = surface_seconds();
   double seconds = 1e30, processor = 1e30;  // of the shortest step
   for (int step = 0; step < k_steps; ++step) {
     const double begin = now();
@@ -136,9 +142,12 @@ void measure_steps(const std::string& name, Stepper<D>& stepper, double dt) {
     seconds = std::min(seconds, now() - begin);
     processor = std::min(processor, static_cast<double>(std::clock() - busy) / CLOCKS_PER_SEC);
   }
+  const double all_seconds = now() - start;
   const double n = static_cast<double>(stepper.blocks()[0].extent.cells());
   std::printf("  %-34s %8.0f cells   %4.1f cycles   %6.3f s a step and million cells (processor %.3f s)\n",
               name.c_str(), n, cycles / static_cast<double>(k_steps), seconds / n * 1e6, processor / n * 1e6);
+  if (stepper.surface() != nullptr)
+    std::printf("    of which the surface %.0f%%\n", 100.0 * (surface_seconds() - surface_start) / all_seconds);
   std::fflush(stdout);
 }
 

@@ -277,6 +277,38 @@ TEST(OversetVortexTest, SecondOrderThroughTheOverlap) {
   EXPECT_LT(jump_fine, 6.0 * fine);  // largest at the fringe against the mean everywhere
 }
 
+/// Two patches, turned, over a box and over each other: every place is counted once.
+TEST(OversetPartitionTest, EveryPlaceIsCountedOnce) {
+  const auto patch = [](const char* name, double x, double angle, int n) {
+    return make_block<2>(name, {n, n}, {}, [=](const std::array<int, 2>& i) {
+      const double a = 0.5 * (static_cast<double>(i[0]) / n - 0.5),
+                   b = 0.5 * (static_cast<double>(i[1]) / n - 0.5);
+      return std::array<double, 2>{x + std::cos(angle) * a - std::sin(angle) * b,
+                                   0.5 + std::sin(angle) * a + std::cos(angle) * b};
+    });
+  };
+  std::vector<Block<2>> blocks;
+  blocks.push_back(make_block<2>("box", {64, 64}, {}, [](const std::array<int, 2>& i) {
+    return std::array<double, 2>{i[0] / 64.0, i[1] / 64.0};
+  }));
+  blocks.push_back(patch("one", 0.42, 0.5, 40));
+  blocks.push_back(patch("other", 0.58, 0.2, 36));
+  for (std::size_t b = 0; b < 3; ++b)
+    for (int d = 0; d < 2; ++d)
+      for (int side = 0; side < 2; ++side)
+        window<2>(blocks[b], d, side, b == 0 ? Condition::slip : Condition::overset);
+  assemble_overset<2>(blocks, {});
+  double area = 0.0, solved = 0.0;
+  for (const Block<2>& block : blocks)
+    for_each_index<2>({}, block.extent.n, [&](const std::array<int, 2>& index) {
+      const auto c = static_cast<std::size_t>(block.extent.at(index));
+      area += counted_share(block, c) * block.volume[c];
+      solved += block.solved[c] * block.volume[c];
+    });
+  EXPECT_NEAR(area, 1.0, 2e-4);
+  EXPECT_GT(solved, 1.03);  // what the cells that are solved would make of it
+}
+
 /// A lid drives a closed, incompressible box: what the interpolation lets into the hole has nowhere to go,
 /// and the inner iteration would stall at that flux (ClosedContour).
 TEST(OversetClosedBoxTest, InnerIterationDoesNotStall) {
