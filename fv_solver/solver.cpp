@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "checks.hpp"
+#include "grid/space.hpp"
 #include "io/checkpoint.hpp"
 #include "littoral/coupler/job.hpp"
 #include "littoral/error.hpp"
@@ -157,6 +158,7 @@ void Solver<D>::report(const StepReport& outcome) {
     for (const double norm : outcome.norms) history += format(" %.3e", norm);
     log_.info(history);
   }
+  if (const FreeSurface<D>* surface = stepper_.surface()) warn_of_thin_water(surface->thin_water());
   if (outcome.converged) return;
   // the first few and then every hundredth: a run that never converges should not bury its log
   if (++unconverged_ <= 3 || unconverged_ % 100 == 0)
@@ -164,6 +166,19 @@ void Solver<D>::report(const StepReport& outcome) {
         format("step %ld: the inner iteration stopped after %d cycles at a drop of %.1e, not %.1e (%ld "
                "such steps so far); a smaller step or more dual_time.max_cycles helps",
                stepper_.steps(), outcome.cycles, outcome.drop(), config_.dual_time.drop, unconverged_));
+}
+
+/// Once, and again whenever there is four times as much.
+template <int D>
+void Solver<D>::warn_of_thin_water(const ThinWater<D>& thin) {
+  if (thin.cells <= 4.0 * thin_water_told_) return;
+  thin_water_told_ = thin.cells;
+  const coupler::Vec3 x = vector_in_space<D>(thin.place);
+  log_.warn(format(
+      "step %ld: %.0f cells of water are threads, sheets or drops no thicker than a cell, as at (%.4g, %.4g, "
+      "%.4g) m: the level set carries them, but cannot be trusted there; finer cells, or particles, resolve "
+      "them (column thin_water_cells)",
+      stepper_.steps(), thin.cells, x[0], x[1], x[2]));
 }
 
 template <int D>

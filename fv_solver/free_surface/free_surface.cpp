@@ -114,9 +114,11 @@ void FreeSurface<D>::end(std::vector<Block<D>>& blocks, const Exchange<D>& excha
     restore_volumes<D>(blocks, exchange, set_.band, set_.patches, start_[0], set_.phi, past_);
   set_masks(blocks, exchange);
   continue_all(blocks, exchange, equations.fluid, q);
-  budget_.add(exchange.ranks().sum(water_volume<D>(blocks, set_.phi)),
-              exchange.ranks().sum(inflow_through_openings<D>(blocks, equations, scheme_.dt, set_.phi, q)),
-              scheme_.dt);
+  std::array<double, 2> water{water_volume<D>(blocks, set_.phi),
+                              inflow_through_openings<D>(blocks, equations, scheme_.dt, set_.phi, q)};
+  exchange.ranks().sum(water);
+  budget_.add(water[0], water[1], scheme_.dt);
+  thin_water_ = find_thin_water<D>(blocks, exchange, set_.band, wet_);
 }
 
 /// Air without a velocity of its own holds none: extrapolated in time step by step it would run away, and a

@@ -6,6 +6,7 @@
 #include "free_surface/cut_faces.hpp"
 #include "free_surface/imposed.hpp"
 #include "free_surface/inflow.hpp"
+#include "free_surface/thin_water.hpp"
 #include "level_set/level_set.hpp"
 #include "physics/equations.hpp"
 
@@ -59,6 +60,8 @@ class FreeSurface {
   }
   /// Of the water in all solved cells, as the last step left it.
   const VolumeBudget& budget() const { return budget_; }
+  /// Where the level set is not to be trusted, after the last step.
+  const ThinWater<D>& thin_water() const { return thin_water_; }
   /// Counts the changes of which cells are water.
   long version() const { return version_; }
 
@@ -89,8 +92,9 @@ class FreeSurface {
   std::vector<Field> past_;  // [m] phi^n-1, cells new in the band completed
   Memory start_;             // [m] phi^n, phi^n-1 of the step just done or under way
   BackwardDifference scheme_;
-  VolumeBudget budget_, budget_before_;             // now, and before the last begin
-  std::vector<WetMask> wet_;                        // [block]
+  VolumeBudget budget_, budget_before_;  // now, and before the last begin
+  std::vector<WetMask> wet_;             // [block]
+  ThinWater<D> thin_water_;
   std::vector<CutFaces<D>> cut_;                    // [block]
   std::vector<std::vector<std::ptrdiff_t>> drops_;  // [block] cells of water alone
   long version_ = 0;

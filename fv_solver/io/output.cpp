@@ -75,7 +75,8 @@ Output<D>::Output(const std::string& folder, const FvConfig& config, const suppo
   std::vector<std::string> columns = {"time", "dt", "cycles", "drop", "kinetic_energy", "potential_energy",
                                       "mass"};
   if (stepper.surface() != nullptr)
-    for (const char* name : {"water_volume", "volume_error", "surface_cfl"}) columns.emplace_back(name);
+    for (const char* name : {"water_volume", "volume_error", "surface_cfl", "thin_water_cells"})
+      columns.emplace_back(name);
   for (const auto& wall : walls_)
     for (const char* part : {".f", ".dynamic_f"})
       for (std::size_t a = 0; a < 3; ++a)
@@ -106,6 +107,7 @@ void Output<D>::row(const Stepper<D>& stepper, const StepReport& report, double 
     values.push_back(surface->budget().volume);
     values.push_back(surface->budget().error);
     values.push_back(surface->rate(stepper.blocks(), stepper.exchange()) * stepper.last_dt());
+    values.push_back(surface->thin_water().cells);
   }
   for (const auto& wall : walls_) {
     const WallLoads loads =

@@ -333,5 +333,34 @@ TEST(FreeSurfaceTest, StepsRepeatAndContinueToTheBit) {
   }
 }
 
+/// A pool and, above it, a sheet of `cells` cells that falls: where the sheet is one cell thick it is told
+/// of.
+TEST(FreeSurfaceTest, WaterAsThinAsACellIsCounted) {
+  constexpr int n = 16;
+  for (const double cells : {1.0, 3.0}) {
+    Fluid<2> fluid;
+    fluid.gravity = {0.0, -k_g};
+    const double low = 0.5, high = low + cells / n;  // faces of cells
+    Block<2> tank = make_block<2>("tank", {n, n}, {}, [](const std::array<int, 2>& i) {
+      return std::array<double, 2>{static_cast<double>(i[0]) / n, static_cast<double>(i[1]) / n};
+    });
+    close_with<2>(tank, Condition::slip);
+    Stepper<2> stepper = tank_with_surface<2>(
+        tank, fluid, [](const std::array<double, 2>&, double) { return PointState<2>{}; },
+        [=](const std::array<double, 3>& x, double) {
+          const double sheet = std::max(low - x[2], x[2] - high);
+          return std::min(x[2] - 0.2, sheet);
+        });
+    stepper.advance(1e-3);
+    const ThinWater<2>& thin = stepper.surface()->thin_water();
+    if (cells > 2.0) {
+      EXPECT_EQ(thin.cells, 0.0);
+      continue;
+    }
+    EXPECT_EQ(thin.cells, n);
+    EXPECT_NEAR(thin.place[1], low + 0.5 / n, 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace littoral::fv

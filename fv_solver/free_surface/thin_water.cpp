@@ -1,0 +1,40 @@
+#include "free_surface/thin_water.hpp"
+
+#include <algorithm>
+
+#include "grid/space.hpp"
+
+namespace littoral::fv {
+
+template <int D>
+ThinWater<D> find_thin_water(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange,
+                             const Band<D>& band, const std::vector<WetMask>& wet) {
+  ThinWater<D> here;
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    for (const std::ptrdiff_t c : band.cells(b, 0, 1)) {
+      const auto at = static_cast<std::size_t>(c);
+      const CellStatus status = blocks[b].status[at];
+      if (wet[b][at] == 0 || (status != CellStatus::computed && status != CellStatus::forced)) continue;
+      const auto& strides = blocks[b].extent.stride;
+      if (std::none_of(strides.begin(), strides.end(), [&](std::ptrdiff_t s) {
+            return wet[b][static_cast<std::size_t>(c - s)] == 0 &&
+                   wet[b][static_cast<std::size_t>(c + s)] == 0;
+          }))
+        continue;
+      if (here.cells == 0.0) here.place = centre<D>(blocks[b], c);
+      here.cells += 1.0;
+    }
+  ThinWater<D> all;
+  for (const ThinWater<D>& part : exchange.ranks().gather(std::vector<ThinWater<D>>{here})) {
+    if (all.cells == 0.0) all.place = part.place;
+    all.cells += part.cells;
+  }
+  return all;
+}
+
+template ThinWater<2> find_thin_water(const std::vector<Block<2>>&, const Exchange<2>&, const Band<2>&,
+                                      const std::vector<WetMask>&);
+template ThinWater<3> find_thin_water(const std::vector<Block<3>>&, const Exchange<3>&, const Band<3>&,
+                                      const std::vector<WetMask>&);
+
+}  // namespace littoral::fv
