@@ -1,8 +1,8 @@
 """littoral surface DIR: the free surface of a run's particles as triangles (3-D) or lines (2-D), in files and a picture.
 
 The surface is where sum V W = 1/2, by marching cubes or squares (scikit-image) on a grid of half a spacing. Particles
-next to a symmetry plane or a periodic side see their images, so that the surface meets the plane; a body's wall has none, and
-the surface turns away from it within a kernel radius.
+next to a symmetry plane or a periodic side see their images, so that the surface meets the plane. What the bodies' dummies
+cover leaves the water less room: there it is half of the rest, as for the elevation gauges, and the inside of a body is left out.
 """
 
 import pathlib
@@ -61,15 +61,31 @@ def with_images(x, volume, setup):
     return x, volume
 
 
-def grid_of(snapshot, setup, step):
-    """sum V W within the closed sides of the domain, and whether the run kept volumes."""
+def grid_of(snapshot, setup, step, dummies=None):
+    """sum V W of the water and half that of the bodies within the closed sides of the domain, NaN in the bodies, and
+    whether the run kept volumes. dummies: (n, 3), copies beyond closed sides among them or not."""
     x = snapshot.points[:, setup.axes]
     kept = "volume" in snapshot.names
     volume = snapshot["volume"] if kept else np.full(len(x), setup.spacing**setup.dimension)
     x, volume = with_images(x, volume, setup)
     make = coverage.plane if setup.dimension == 2 else coverage.space
-    grid = make(x, volume, setup.radius, step, anchor=setup.lower)
-    return crop(grid, setup), kept
+    if dummies is None or len(dummies) == 0:
+        return crop(make(x, volume, setup.radius, step, anchor=setup.lower), setup), kept
+    walls = np.unique(np.round(near_water(dummies[:, setup.axes], x, setup) / (1e-6 * setup.spacing)), axis=0)
+    walls *= 1e-6 * setup.spacing  # each place once: sheets have two dummies there, and images may be kept already
+    both, none = np.concatenate([x, walls]), np.zeros(len(walls))
+    water = make(both, np.concatenate([volume, none]), setup.radius, step, anchor=setup.lower)
+    solid = make(both, np.concatenate([0 * volume, none + setup.spacing**setup.dimension]), setup.radius, step,
+                 anchor=setup.lower)
+    values = np.where(solid.values < LEVEL, water.values + LEVEL * solid.values, np.nan)
+    return crop(coverage.Grid(water.origin, water.step, values), setup), kept
+
+
+def near_water(dummies, x, setup):
+    """Dummies that the water may reach, with their images across the closed sides."""
+    dummies, _ = with_images(dummies, np.ones(len(dummies)), setup)
+    near = (dummies > x.min(axis=0) - setup.radius) & (dummies < x.max(axis=0) + setup.radius)
+    return dummies[near.all(axis=1)]
 
 
 def crop(grid, setup):
@@ -96,10 +112,23 @@ def library():
 def triangles(grid):
     """Vertices (n, 3) [m] and triangles (m, 3), their normals out of the water."""
     measure = library()
-    if not grid.values.min() < LEVEL < grid.values.max():
+    if not np.nanmin(grid.values) < LEVEL < np.nanmax(grid.values):
         raise UserError("the water has no free surface at that time")
-    x, faces, _, _ = measure.marching_cubes(grid.values, LEVEL, spacing=(grid.step,) * 3, gradient_direction="ascent")
-    return grid.origin + x, faces
+    outside = np.isfinite(grid.values)
+    x, faces, _, _ = measure.marching_cubes(np.where(outside, grid.values, 0.0), LEVEL, gradient_direction="ascent")
+    if not outside.all():
+        x, faces = without_bodies(x, faces, outside)
+    return grid.origin + grid.step * x, faces
+
+
+def without_bodies(x, faces, outside):
+    """The triangles whose corners lie between points outside of the bodies; x in steps of the grid."""
+    below = np.floor(x + 1e-6).astype(int)
+    above = np.minimum(np.ceil(x - 1e-6).astype(int), np.array(outside.shape) - 1)
+    good = outside[tuple(below.T)] & outside[tuple(above.T)]
+    faces = faces[good[faces].all(axis=1)]
+    kept, renumbered = np.unique(faces, return_inverse=True)
+    return x[kept], renumbered.reshape(faces.shape)
 
 
 def lines(grid):
@@ -117,6 +146,13 @@ def moments(folder, time, every):
     return [snapshots[-1] if time is None else min(snapshots, key=lambda s: abs(s.time - time))]
 
 
+def dummies_at(folder, time):
+    """Places of the bodies' dummies at the moment nearest to that, (n, 3); None without bodies."""
+    if not (folder / "bodies.xdmf").exists():
+        return None
+    return min(fields.open_series(folder / "bodies.xdmf"), key=lambda s: abs(s.time - time)).points
+
+
 def command(args):
     folder = pathlib.Path(args.dir)
     folder = folder / "sph" if (folder / "sph").is_dir() else folder
@@ -126,7 +162,7 @@ def command(args):
     step = args.step * setup.spacing
     for number, snapshot in enumerate(moments(folder, args.time, args.all)):
         name = f"surface_{number:04d}" if args.all else "surface"
-        grid, kept = grid_of(snapshot, setup, step)
+        grid, kept = grid_of(snapshot, setup, step, dummies_at(folder, snapshot.time))
         if not kept and number == 0:
             print("volumes are not among output.fields: spacing^D is taken for each particle")
         if setup.dimension == 2:

@@ -80,6 +80,27 @@ class Lines(unittest.TestCase):
         found = sorted((radii(line).mean() for line in surface.lines(grid)))
         np.testing.assert_allclose(found, [6, 13], atol=0.25)
 
+    def test_of_water_between_walls_ends_at_them(self):
+        """Water 6 deep in a trough of 10, walls of four rows about it; nothing of the walls is a surface."""
+        every = lattice((18, 20))
+        trough = (every[:, 0] > 4) & (every[:, 0] < 14) & (every[:, 1] > 4)
+        walls = every[~trough]
+        dummies = np.stack([walls[:, 0], 0 * walls[:, 0], walls[:, 1]], axis=1)
+        grid, _ = surface.grid_of(Water(every[trough & (every[:, 1] < 10)]), setup(2, [18, 0, 20]), 0.5, dummies)
+        found = surface.lines(grid)
+        self.assertEqual(len(found), 1)
+        np.testing.assert_allclose(found[0][:, 1], 10.0, atol=0.4)
+        self.assertAlmostEqual(found[0][:, 0].min(), 4.0, delta=0.6)
+        self.assertAlmostEqual(found[0][:, 0].max(), 14.0, delta=0.6)
+
+    def test_of_water_between_walls_in_space(self):
+        every = lattice((14, 14, 16))
+        trough = (np.abs(every[:, :2] - 7) < 4).all(axis=1) & (every[:, 2] > 3)
+        grid, _ = surface.grid_of(Water(every[trough & (every[:, 2] < 8)]), setup(3, [14, 14, 16]), 0.5, every[~trough])
+        x, faces = surface.triangles(grid)
+        np.testing.assert_allclose(x[:, 2], 8.0, atol=0.5)
+        self.assertTrue(49 < meshes.area(x, faces) < 66, "8 x 8, up to a step of the grid from the walls")
+
 
 if __name__ == "__main__":
     unittest.main()
