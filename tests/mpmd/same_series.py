@@ -37,19 +37,20 @@ def worst(one, two, scale):
     return float(np.nanmax(np.abs(one - two) / np.where(scale > 0, scale, 1), initial=0.0))
 
 
-def same(fields, scale, series, vector_of, left_out, count, tolerance):
+def same(fields, scale, series, vector_of, left_out, count, tolerance, of_fields=None):
     """Whether both runs agree, told on the screen.
 
     fields     {name: values} of each run's end; scale: of one field's values
     series     folder of each run's CSV files; vector_of: the vector whose component a column is, or its own name
     left_out   columns that are not compared
+    tolerance  of the series, and of the fields unless of_fields is given
     """
     a, b = fields
     agree = a.keys() == b.keys() and len(a) >= 3
     for name in (name for name in a if name in b):
         difference = worst(a[name], b[name], scale(a[name]))
         print(f"{name}: {difference:.3g}")
-        agree &= difference <= tolerance
+        agree &= difference <= (tolerance if of_fields is None else of_fields)
     for name in ("scalars.csv", "gauges.csv"):
         if name == "gauges.csv" and not any(pathlib.Path(folder, name).exists() for folder in series):
             continue  # a scene without gauges

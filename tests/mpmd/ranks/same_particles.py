@@ -1,7 +1,8 @@
 #!/usr/bin/python3
-"""same_particles.py ROWS A B [TOLERANCE]: two runs of sph_solver end with the same particles, by their ids, and the last
+"""same_particles.py ROWS A B [TOLERANCE [OF_PARTICLES]]: two runs of sph_solver end with the same particles, by their ids, and the last
 ROWS rows of their series agree; relative to the largest value of a column, wall times apart. The ledger's defect, which
-is round-off and nothing else, is compared in runs that must be equal to the bit only."""
+is round-off and nothing else, is compared in runs that must be equal to the bit only.
+OF_PARTICLES: a tolerance of their own; 0: each particle is the same to the bit."""
 
 import pathlib
 import sys
@@ -29,7 +30,8 @@ def main():
     tolerance = float(sys.argv[4]) if len(sys.argv) > 4 else 0.0
     agree = same([last_fields(run) for run in runs], lambda values: np.nanmax(np.abs(values), axis=0),
                  [pathlib.Path(run, "sph") for run in runs], load_of,
-                 () if tolerance == 0.0 else ("ledger_defect",), count, tolerance)
+                 () if tolerance == 0.0 else ("ledger_defect",), count, tolerance,
+                 float(sys.argv[5]) if len(sys.argv) > 5 else None)
     sys.exit(0 if agree else 1)
 
 
