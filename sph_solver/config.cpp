@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "io/stl.hpp"
@@ -286,18 +287,16 @@ std::shared_ptr<const TriangleSurface> read_surface(const support::BodySpec& spe
 }
 
 /// Through a body thinner than a kernel radius the water of one side would feel that of the other. A plate
-/// has no thickness and keeps them apart by itself; parts of a surface from a file are not looked at.
+/// has no thickness and keeps them apart by itself; of a surface from a file only the whole is looked at.
 template <int D>
-void require_thickness(const support::BodySpec& spec, double kernel_radius) {
-  using Shape = support::BodySpec::Shape;
-  if (spec.fluid == support::BodySpec::Fluid::inside || spec.shape == Shape::plate ||
-      spec.shape == Shape::stl)
-    return;
-  double least = 2.0 * spec.radius;
-  if (spec.shape == Shape::cylinder && D == 3) least = std::min(least, spec.length);
-  if (spec.shape == Shape::box || spec.shape == Shape::wedge) {
-    least = std::min(spec.size[0], spec.size[2]);
-    if (D == 3) least = std::min(least, spec.size[1]);
+void require_thickness(const support::BodySpec& spec, const Body& body, double kernel_radius) {
+  if (body.holds_fluid() || body.is_sheet()) return;
+  double least = spec.shape == support::BodySpec::Shape::wedge ? std::min(spec.size[0], spec.size[2])
+                                                               : std::numeric_limits<double>::infinity();
+  const auto corners = body.local_bounds();
+  for (std::size_t d = 0; d < D; ++d) {
+    const std::size_t axis = scene_axis<D>(d);
+    least = std::min(least, corners[1][axis] - corners[0][axis]);
   }
   if (least >= kernel_radius) return;
   std::ostringstream text;
@@ -307,6 +306,26 @@ void require_thickness(const support::BodySpec& spec, double kernel_radius) {
   throw ConfigError(text.str());
 }
 
+/// A solid that stays where no water can feel it is a slip of its position or scale.
+template <int D>
+void require_in_reach(const Body& body, const DomainBox<D>& box, double kernel_radius) {
+  if (body.moves() || body.holds_fluid()) return;
+  const auto corners = body.bounds();
+  for (std::size_t d = 0; d < D; ++d) {
+    if (box.is_periodic(d)) continue;
+    const double low = corners[0][scene_axis<D>(d)], high = corners[1][scene_axis<D>(d)];
+    const auto reach = [&](std::size_t side) {
+      return box.sides[d][side] == support::Scene::Side::open ? kernel_radius : 0.0;
+    };
+    if (high > box.lower[d] - reach(0) && low < box.upper[d] + reach(1)) continue;
+    std::ostringstream text;
+    text << "bodies: '" << body.name() << "' lies wholly outside of the domain: along "
+         << "xyz"[scene_axis<D>(d)] << " from " << low << " to " << high << " m, the domain from "
+         << box.lower[d] << " to " << box.upper[d] << " m. Check its position, and the scale of a file.";
+    throw ConfigError(text.str());
+  }
+}
+
 }  // namespace
 
 template <int D>
@@ -314,10 +333,12 @@ std::unique_ptr<Walls<D>> walls_of(const RunConfig& config, const std::array<dou
   if (config.scene.bodies.empty()) return nullptr;
   const auto numerics = numerics_of<D>(config);
   std::vector<Body> bodies;
-  for (const auto& spec : config.scene.bodies) require_thickness<D>(spec, numerics.kernel_radius);
-  for (const auto& spec : config.scene.bodies)
+  for (const auto& spec : config.scene.bodies) {
     bodies.emplace_back(spec, D == 2, numerics.kernel_radius / numerics.eos.c,
                         spec.shape == support::BodySpec::Shape::stl ? read_surface(spec) : nullptr);
+    require_thickness<D>(spec, bodies.back(), numerics.kernel_radius);
+    require_in_reach<D>(bodies.back(), domain_of<D>(config), numerics.kernel_radius);
+  }
   auto walls = std::make_unique<Walls<D>>(std::move(bodies), numerics, domain_of<D>(config),
                                           Lattice<D>{origin, numerics.spacing});
   std::vector<WallDisc> discs;

@@ -109,7 +109,7 @@ void Solver<D>::begin() {
     announce();
   }
   if (restart_) return;
-  dynamics_.prepare(particles_, time_, hooks());
+  dynamics_.prepare(particles_, time_, hooks(), dynamics_.stable_time_step());
   output_.write_rows(moment({}), particles_, dynamics_, layers_);
   output_.write_fields(time_, particles_);
 }
@@ -211,7 +211,8 @@ void Solver<D>::advance(const coupler::Agreement& agreement) {
 template <int D>
 void Solver<D>::write(const coupler::Agreement& agreement) {
   const auto& window = agreement.window;
-  dynamics_.prepare(particles_, time_, hooks());
+  // for the next step as well, which then finds lists and surface as they are
+  dynamics_.prepare(particles_, time_, hooks(), dynamics_.stable_time_step());
   output_.write_rows(moment(window), particles_, dynamics_, layers_);
   n_particles_ = n_particles();
   warn_of_layers();

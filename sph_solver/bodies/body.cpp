@@ -1,6 +1,10 @@
 #include "bodies/body.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <sstream>
+
+#include "littoral/error.hpp"
 
 namespace littoral::sph {
 
@@ -12,7 +16,40 @@ Body::Body(const support::BodySpec& spec, bool planar, double time_scale,
       motion_(spec, time_scale),
       sticks_(spec.slip == support::BodySpec::Slip::none),
       fluid_inside_(spec.fluid == support::BodySpec::Fluid::inside),
-      now_(motion_.at(0.0)) {}
+      now_{} {
+  move_to(0.0);
+  const auto corners = local_bounds();
+  for (std::size_t d = 0; d < 3; ++d)
+    if (std::isfinite(corners[0][d])) middle_[d] = 0.5 * (corners[0][d] + corners[1][d]);
+}
+
+void Body::move_to(double t) {
+  // before anything is integrated: what is not finite once stays so, and a body nowhere has no dummies
+  const std::string broken = motion_.not_finite_at(t);
+  if (!broken.empty()) {
+    std::ostringstream text;
+    text << "t = " << t << " s: body '" << name_ << "': its motion." << broken
+         << " has no finite value there, or a moment before or after. Mend the formula; min, max and "
+            "conditions keep it in its range.";
+    throw StabilityError(text.str());
+  }
+  now_ = motion_.at(t);
+}
+
+std::array<Vector3, 2> Body::bounds() const {
+  auto corners = local_bounds();
+  for (std::size_t d = 0; d < 3; ++d)
+    if (!std::isfinite(corners[0][d])) corners[0][d] = corners[1][d] = 0.0;
+  std::array<Vector3, 2> box;
+  for (std::size_t k = 0; k < 8; ++k) {
+    const Vector3 c = to_world({corners[k & 1][0], corners[(k >> 1) & 1][1], corners[k >> 2][2]});
+    for (std::size_t d = 0; d < 3; ++d) {
+      box[0][d] = k == 0 ? c[d] : std::min(box[0][d], c[d]);
+      box[1][d] = k == 0 ? c[d] : std::max(box[1][d], c[d]);
+    }
+  }
+  return box;
+}
 
 SurfacePoint Body::closest_wall(const Vector3& x) const {
   const SurfacePoint local = shape_->closest(to_local(x));

@@ -25,7 +25,8 @@ class Body {
   bool is_sheet() const { return sheet_.has_value(); }
   const Point2& sheet() const { return *sheet_; }  ///< half its lengths along its x and y [m]
 
-  void move_to(double t) { now_ = motion_.at(t); }
+  /// throws StabilityError: a formula of its motion has no finite value there
+  void move_to(double t);
   const BodyState& state() const { return now_; }
 
   Vector3 to_world(const Vector3& local) const { return now_.position + now_.rotation(local); }
@@ -39,6 +40,10 @@ class Body {
   /// Where the straight way between two points of its own frame that are on different sides of a sheet's
   /// plane goes through the sheet, as a share of the way; nothing if it passes by.
   std::optional<double> passage(const Vector3& from, const Vector3& to) const;
+  /// Of that box, in the scene; endless directions count as 0.
+  Vector3 middle() const { return to_world(middle_); }
+  /// Lowest and highest corner of a box of the scene that holds it; endless directions count as 0.
+  std::array<Vector3, 2> bounds() const;
   /// Corners of a box in its own frame that holds it.
   std::array<Vector3, 2> local_bounds() const { return shape_->bounds(); }
 
@@ -49,6 +54,7 @@ class Body {
   Motion motion_;
   bool sticks_;
   bool fluid_inside_;
+  Vector3 middle_{};  // in its own frame
   BodyState now_;
 };
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "bodies/nearest_image.hpp"
+
 namespace littoral::sph {
 
 template <int D>
@@ -17,21 +19,11 @@ template <int D>
 void Dummies<D>::fill(const std::vector<Body>& bodies, std::int32_t b, const Lattice<D>& lattice,
                       double depth) {
   const Body& own = bodies[static_cast<std::size_t>(b)];
-  auto corners = own.local_bounds();
-  if constexpr (D == 2) corners[0][1] = corners[1][1] = 0.0;
-  constexpr double inf = std::numeric_limits<double>::infinity();
-  Vector3 lower = {inf, inf, inf}, upper = {-inf, -inf, -inf};
-  for (std::size_t k = 0; k < 8; ++k) {
-    const Vector3 c = own.to_world({corners[k & 1][0], corners[(k >> 1) & 1][1], corners[k >> 2][2]});
-    for (std::size_t d = 0; d < 3; ++d) {
-      lower[d] = std::min(lower[d], c[d] - depth);
-      upper[d] = std::max(upper[d], c[d] + depth);
-    }
-  }
+  const auto [lower, upper] = own.bounds();
   std::array<long, D> first{}, n{};
   long total = 1;
   for (std::size_t d = 0; d < D; ++d) {
-    double low = lower[scene_axis<D>(d)], high = upper[scene_axis<D>(d)];
+    double low = lower[scene_axis<D>(d)] - depth, high = upper[scene_axis<D>(d)] + depth;
     // Only what the water can see; a moving body may come from outside. A periodic length repeats itself.
     const bool endless = box_.is_periodic(d) && high - low > box_.length(d);
     if (!own.moves() || endless) {
@@ -74,7 +66,7 @@ bool Dummies<D>::counts(const std::vector<Body>& bodies, const Made& dummy, cons
   const double depth = norm(dummy.place - dummy.wall);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     if (b == own || bodies[b].is_sheet()) continue;
-    const double other = -bodies[b].closest_wall(place).distance;
+    const double other = -bodies[b].closest_wall(nearest_image<D>(box_, bodies[b], place)).distance;
     if (other < -tolerance_) continue;
     if (bodies[own].is_sheet() || other > depth + tolerance_ || (other >= depth - tolerance_ && b < own))
       return false;

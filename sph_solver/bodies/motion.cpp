@@ -1,6 +1,7 @@
 #include "bodies/motion.hpp"
 
 #include <cmath>
+#include <utility>
 
 namespace littoral::sph {
 namespace {
@@ -39,6 +40,17 @@ Vector3 Motion::velocity(double t) const {
 
 Vector3 Motion::spin(double t) const {
   return {value(formulas_.rate_x, t), value(formulas_.rate_y, t), value(formulas_.rate_z, t)};
+}
+
+std::string Motion::not_finite_at(double t) const {
+  const std::pair<const char*, const std::optional<support::Formula>*> keys[] = {
+      {"u", &formulas_.u},           {"v", &formulas_.v},           {"w", &formulas_.w},
+      {"x", &formulas_.x},           {"y", &formulas_.y},           {"z", &formulas_.z},
+      {"rate_x", &formulas_.rate_x}, {"rate_y", &formulas_.rate_y}, {"rate_z", &formulas_.rate_z}};
+  for (const auto& [key, formula] : keys)
+    for (const double when : {t - h_, t, t + h_})
+      if (!std::isfinite(value(*formula, when))) return key;
+  return "";
 }
 
 Motion::Place Motion::advance(const Place& from, double t, double dt) const {

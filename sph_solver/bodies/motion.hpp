@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "bodies/vector3.hpp"
@@ -32,6 +33,9 @@ class Motion {
   Motion(const support::BodySpec& spec, double interval);
   bool moves() const { return moves_; }
   BodyState at(double t);
+  /// The first of the formulas' keys that has no finite value at t, or next to it where it is differentiated;
+  /// empty: all have.
+  std::string not_finite_at(double t) const;
 
  private:
   Vector3 velocity(double t) const;

@@ -1,5 +1,6 @@
 #include "bodies/sheets.hpp"
 
+#include "bodies/nearest_image.hpp"
 #include "bodies/wall_view.hpp"
 
 namespace littoral::sph {
@@ -18,10 +19,11 @@ Sheets<D>::Sheets(const std::vector<Body>& bodies) {
 }
 
 template <int D>
-bool Sheets<D>::between(const std::vector<Body>& bodies, const std::array<double, D>& x,
-                        const std::array<double, D>& y) const {
+bool Sheets<D>::between(const std::vector<Body>& bodies, const DomainBox<D>& box,
+                        const std::array<double, D>& x, const std::array<double, D>& y) const {
   for (const std::size_t b : sheets_)
-    if (divides(bodies[b], bodies[b].to_local(in_scene<D>(x)), bodies[b].to_local(in_scene<D>(y))))
+    if (divides(bodies[b], bodies[b].to_local(nearest_image<D>(box, bodies[b], in_scene<D>(x))),
+                bodies[b].to_local(nearest_image<D>(box, bodies[b], in_scene<D>(y)))))
       return true;
   return false;
 }
@@ -48,7 +50,7 @@ bool Sheets<D>::shows(const std::vector<Body>& bodies, const Dummies<D>& dummies
 }
 
 template <int D>
-void Sheets<D>::part(const std::vector<Body>& bodies, const Particles<D>& particles,
+void Sheets<D>::part(const std::vector<Body>& bodies, const DomainBox<D>& box, const Particles<D>& particles,
                      NeighborList<D>& neighbors) const {
   std::vector<Vector3> local(particles.size());
   for (const std::size_t b : sheets_) {
@@ -57,7 +59,7 @@ void Sheets<D>::part(const std::vector<Body>& bodies, const Particles<D>& partic
 #pragma omp parallel for schedule(static)
     for (std::ptrdiff_t k = 0; k < n; ++k) {
       const auto i = static_cast<std::size_t>(k);
-      local[i] = sheet.to_local(in_scene<D>(at<D>(particles.x, i)));
+      local[i] = sheet.to_local(nearest_image<D>(box, sheet, in_scene<D>(at<D>(particles.x, i))));
     }
     neighbors.mark_pairs([&](std::size_t i) { return std::fabs(local[i][2]) < neighbors.reach(); },
                          [&](std::size_t i, std::size_t j) { return divides(sheet, local[i], local[j]); });

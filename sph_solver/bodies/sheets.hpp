@@ -18,14 +18,15 @@ class Sheets {
   bool none() const { return sheets_.empty(); }
 
   /// True if a sheet stands between two points.
-  bool between(const std::vector<Body>& bodies, const std::array<double, D>& x,
+  bool between(const std::vector<Body>& bodies, const DomainBox<D>& box, const std::array<double, D>& x,
                const std::array<double, D>& y) const;
   /// True if a point sees this dummy: always, if it is a solid's; a sheet's if the sheet hides the dummy's
   /// place from it, on the dummy's side, and no other sheet stands before it.
   bool shows(const std::vector<Body>& bodies, const Dummies<D>& dummies, std::size_t e,
              const std::array<double, D>& x) const;
   /// Takes the pairs with a sheet between them out of the rows. comm: local
-  void part(const std::vector<Body>& bodies, const Particles<D>& particles, NeighborList<D>& neighbors) const;
+  void part(const std::vector<Body>& bodies, const DomainBox<D>& box, const Particles<D>& particles,
+            NeighborList<D>& neighbors) const;
 
  private:
   std::vector<std::size_t> sheets_;  // among the bodies

@@ -69,6 +69,11 @@ struct TriangleSurface::Nearest {
 };
 
 TriangleSurface::TriangleSurface(const TriangleSoup& soup, const std::string& name) {
+  for (std::size_t q = 0; q < soup.size(); ++q)
+    for (const Vector3& x : soup[q])
+      if (!std::isfinite(x[0] + x[1] + x[2]))
+        throw ConfigError(name + ": triangle " + std::to_string(q + 1) + " has a corner " + text_of(x) +
+                          ", which is not finite.");
   join(soup);
   if (triangles_.empty()) throw ConfigError(name + ": holds no triangle with an area.");
   check_edges(name);

@@ -18,8 +18,8 @@ using TriangleSoup = std::vector<std::array<Vector3, 3>>;
 class TriangleSurface {
  public:
   /// Joins corners that agree to the last digit, leaves out triangles without area, turns all normals
-  /// outward. throws ConfigError, with `name`: an edge without a second triangle, with more than two, or with
-  /// two that run the same way
+  /// outward. throws ConfigError, with `name`: a corner that is not finite, an edge without a second
+  /// triangle, with more than two, or with two that run the same way
   TriangleSurface(const TriangleSoup& soup, const std::string& name);
 
   SurfacePoint closest(const Vector3& x) const;

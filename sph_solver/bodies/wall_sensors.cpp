@@ -113,7 +113,7 @@ WallSensors<D>::WallSensors(const std::vector<WallDisc>& discs, const std::vecto
     }
     discs_.push_back(std::move(disc));
   }
-  begin_step();
+  mean_.assign(discs_.size(), std::numeric_limits<double>::quiet_NaN());  // no step has been made yet
 }
 
 template <int D>

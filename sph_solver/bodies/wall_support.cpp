@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bodies/nearest_image.hpp"
 #include "bodies/wall_view.hpp"
 #include "physics/kernel.hpp"
 
@@ -52,9 +53,11 @@ class Around {
 
 /// Where walls meet, the image about the one may lie in the other: no void either.
 template <int D>
-bool is_body(const std::vector<Body>& bodies, const Vector<D>& place, double spacing) {
+bool is_body(const std::vector<Body>& bodies, const DomainBox<D>& box, const Vector<D>& place,
+             double spacing) {
   return std::any_of(bodies.begin(), bodies.end(), [&](const Body& body) {
-    return !body.is_sheet() && body.closest_wall(in_scene<D>(place)).distance <= k_on_body * spacing;
+    return !body.is_sheet() &&
+           body.closest_wall(nearest_image<D>(box, body, in_scene<D>(place))).distance <= k_on_body * spacing;
   });
 }
 
@@ -62,8 +65,8 @@ bool is_body(const std::vector<Body>& bodies, const Vector<D>& place, double spa
 
 template <int D>
 void WallSupport<D>::find(const Particles<D>& particles, const NeighborList<D>& neighbors,
-                          const std::vector<Body>& bodies, const Dummies<D>& dummies, const WallList<D>& list,
-                          double spacing, bool free_surface) {
+                          const std::vector<Body>& bodies, const DomainBox<D>& box, const Dummies<D>& dummies,
+                          const WallList<D>& list, double spacing, bool free_surface) {
   list_ = &list;
   const Kernel<D> kernel(neighbors.kernel_radius());
   R_ = kernel.R;
@@ -99,7 +102,8 @@ void WallSupport<D>::find(const Particles<D>& particles, const NeighborList<D>& 
           const double off = std::max(depth, k_least_off * spacing);
           Vector<D> mirror;
           for (std::size_t d = 0; d < D; ++d) mirror[d] = x[d] + dx[d] - (depth + off) * wall.n[d];
-          return around.any_near(mirror, k_wet_within<D> * spacing) || is_body<D>(bodies, mirror, spacing);
+          return around.any_near(mirror, k_wet_within<D> * spacing) ||
+                 is_body<D>(bodies, box, mirror, spacing);
         };
         if (free_surface && !wet_before(view.plane_of_dummy(e))) continue;
         wet_[pair] = 1;

@@ -14,7 +14,8 @@ template <int D>
 class WallSupport {
  public:
   void find(const Particles<D>& particles, const NeighborList<D>& neighbors, const std::vector<Body>& bodies,
-            const Dummies<D>& dummies, const WallList<D>& list, double spacing, bool free_surface);
+            const DomainBox<D>& box, const Dummies<D>& dummies, const WallList<D>& list, double spacing,
+            bool free_surface);
 
   /// sum_w V_w grad W_iw x_iw^T, what the walls add to B (S9).
   SymmetricMatrix<D> renormalisation(std::size_t i) const;

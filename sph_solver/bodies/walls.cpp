@@ -5,6 +5,7 @@
 #include <optional>
 #include <sstream>
 
+#include "bodies/nearest_image.hpp"
 #include "bodies/wall_gradients.hpp"
 #include "bodies/wall_view.hpp"
 #include "bodies/wall_viscosity.hpp"
@@ -26,13 +27,13 @@ template <int D>
 Walls<D>::Walls(std::vector<Body> bodies, const Numerics<D>& numerics, const DomainBox<D>& box,
                 const Lattice<D>& lattice)
     : numerics_(numerics),
+      box_(box),
       bodies_(std::move(bodies)),
       // fluid lists may be half a skin old when these are made, and both may move by half a skin after
       reach_(numerics.kernel_radius + 2.0 * numerics.skin),
       sheets_(bodies_),
       dummies_(bodies_, box, lattice, numerics.kernel_radius),
-      loads_(bodies_.size()),
-      impulses_(bodies_.size()) {
+      loads_(bodies_.size()) {
   for (const Body& body : bodies_) {
     sticks_.push_back(body.sticks() && numerics.viscosity > 0.0);
     any_sticks_ = any_sticks_ || sticks_.back();
@@ -137,14 +138,15 @@ std::size_t Walls<D>::keep_out(Particles<D>& particles, const std::array<std::ve
       if (in_front(e, i)) continue;
       last = dummies_[e].body;
       const auto b = static_cast<std::size_t>(last);
-      const Vector3 x = in_scene<D>(at<D>(particles.x, i));
-      const auto wall = gone_through<D>(bodies_[b], at_step_[b], in_scene<D>(at<D>(start, i)), x);
+      const Vector3 here = in_scene<D>(at<D>(particles.x, i)),
+                    across = to_nearest_image<D>(box_, bodies_[b], here), x = here + across;
+      const auto wall = gone_through<D>(bodies_[b], at_step_[b], in_scene<D>(at<D>(start, i)) + across, x);
       if (!wall) continue;
       const Vector3 u = in_scene<D>(at<D>(particles.u, i));
       if (!(-wall->distance <= tolerance)) {
         std::ostringstream text;
-        text << "t = " << time << " s: particle " << particles.id[i] << " at (" << x[0] << ", " << x[1]
-             << ", " << x[2] << ") m, velocity (" << u[0] << ", " << u[1] << ", " << u[2] << ") m/s, went "
+        text << "t = " << time << " s: particle " << particles.id[i] << " at (" << here[0] << ", " << here[1]
+             << ", " << here[2] << ") m, velocity (" << u[0] << ", " << u[1] << ", " << u[2] << ") m/s, went "
              << -wall->distance << " m deep into body '" << bodies_[b].name()
              << "', more than half a spacing (" << tolerance
              << " m). Try a lower time.cfl, a higher fluid.sound_speed or a smaller spacing.";
@@ -152,15 +154,15 @@ std::size_t Walls<D>::keep_out(Particles<D>& particles, const std::array<std::ve
       }
       const double into = dot(u - bodies_[b].state().velocity_at(wall->point), wall->normal);
       const Vector3 back = 2.0 * std::max(0.0, into) * wall->normal;
-      const auto to = in_plane<D>(x + 2.0 * wall->distance * wall->normal), slower = in_plane<D>(u - back);
+      const auto to = in_plane<D>(here + 2.0 * wall->distance * wall->normal), slower = in_plane<D>(u - back);
       for (std::size_t d = 0; d < D; ++d) {
         particles.x[d][i] = to[d];
         particles.u[d][i] = slower[d];
       }
-      auto& impulse = impulses_[b];
-      impulse.pressure = impulse.pressure + particles.m[i] * back;
-      impulse.pressure_moment =
-          impulse.pressure_moment + cross(wall->point - bodies_[b].state().position, particles.m[i] * back);
+      const Vector3 force = (particles.m[i] / dt_) * back;
+      loads_[b].pressure = loads_[b].pressure + force;
+      loads_[b].pressure_moment =
+          loads_[b].pressure_moment + cross(wall->point - bodies_[b].state().position, force);
       ++n_put_back;
     }
   }
@@ -205,19 +207,16 @@ void Walls<D>::add_rates(const Particles<D>& particles, double level, Rate<D>& r
 
 template <int D>
 void Walls<D>::find_support(const Particles<D>& particles, const NeighborList<D>& neighbors) {
-  support_.find(particles, neighbors, bodies_, dummies_, list_, numerics_.spacing, numerics_.free_surface);
+  support_.find(particles, neighbors, bodies_, box_, dummies_, list_, numerics_.spacing,
+                numerics_.free_surface);
 }
 
 template <int D>
 void Walls<D>::begin_step(double dt) {
   at_step_ = states_of(bodies_);
   sensors_.begin_step();
-  for (std::size_t b = 0; b < loads_.size(); ++b) {
-    loads_[b] = {};
-    loads_[b].pressure = (1.0 / dt) * impulses_[b].pressure;
-    loads_[b].pressure_moment = (1.0 / dt) * impulses_[b].pressure_moment;
-    impulses_[b] = {};
-  }
+  loads_.assign(bodies_.size(), {});
+  dt_ = dt;
 }
 
 template <int D>
@@ -230,7 +229,8 @@ void Walls<D>::add_stage_loads(const Particles<D>& particles, double weight) {
         const Vector3 f = weight * in_scene<D>(forces[row * n_bodies + b]);
         loads_[b].*force = loads_[b].*force + f;
         // the reaction to a force that acts at the particle: angular momentum is kept as well
-        loads_[b].*moment = loads_[b].*moment + cross(x - bodies_[b].state().position, f);
+        const Vector3 arm = nearest_image<D>(box_, bodies_[b], x) - bodies_[b].state().position;
+        loads_[b].*moment = loads_[b].*moment + cross(arm, f);
       }
     }
   };
@@ -256,7 +256,7 @@ template <int D>
 bool Walls<D>::inside(const std::array<double, D>& x) const {
   const Vector3 place = in_scene<D>(x);
   return std::any_of(bodies_.begin(), bodies_.end(), [&](const Body& body) {
-    return body.closest_wall(place).distance <= k_on_body * numerics_.spacing;
+    return body.closest_wall(nearest_image<D>(box_, body, place)).distance <= k_on_body * numerics_.spacing;
   });
 }
 

@@ -34,14 +34,15 @@ class Walls {
   void build(const Particles<D>& particles);
   /// Particles on different sides of a sheet are no neighbours. comm: local
   void part(const Particles<D>& particles, NeighborList<D>& neighbors) const {
-    if (!sheets_.none()) sheets_.part(bodies_, particles, neighbors);
+    if (!sheets_.none()) sheets_.part(bodies_, box_, particles, neighbors);
   }
   bool any_sheet() const { return !sheets_.none(); }
   void forget() { built_ = false; }
 
   /// Particles that in this step, begun at `start`, entered a body or went through a sheet by less than
   /// `tolerance` go back to their mirror image about its surface, velocity included; the body gets their
-  /// momentum. Returns their number. pre: nobody was added, removed or sorted since build()
+  /// momentum, among the loads of the step. Returns their number. pre: nobody was added, removed or sorted
+  /// since build()
   /// throws StabilityError naming a particle that is deeper inside, and the body
   std::size_t keep_out(Particles<D>& particles, const std::array<std::vector<double>, D>& start,
                        double tolerance, double time);
@@ -82,11 +83,12 @@ class Walls {
   bool inside(const std::array<double, D>& x) const;      ///< a body, or on a sheet
   /// A sheet stands between two points.
   bool between(const std::array<double, D>& x, const std::array<double, D>& y) const {
-    return sheets_.between(bodies_, x, y);
+    return sheets_.between(bodies_, box_, x, y);
   }
 
  private:
   Numerics<D> numerics_;
+  DomainBox<D> box_;
   std::vector<Body> bodies_;
   std::vector<char> sticks_;
   bool any_moves_ = false, any_sticks_ = false;
@@ -101,7 +103,8 @@ class Walls {
   KnownSlopes<D> known_;
   Gradients<D> gradients_;
   RowForces<D> pressure_, friction_;  // of the last stage
-  std::vector<BodyLoad> loads_, impulses_;
+  std::vector<BodyLoad> loads_;
+  double dt_ = 1.0;  // of the step that the loads belong to [s]
   WallSensors<D> sensors_;
   double level_ = 0.0;                         // of the pressure [Pa]
   std::vector<BodyState> at_build_, at_step_;  // the bodies' states then

@@ -77,12 +77,6 @@ void ParticleExchange<D>::start(const Particles<D>& particles) {
 }
 
 template <int D>
-void ParticleExchange<D>::lose(double mass) {
-  lost_ += mass;
-  ++counts_.lost;
-}
-
-template <int D>
 void ParticleExchange<D>::doom(std::size_t i) {
   doomed_[i] = 1;
   ++n_doomed_;
@@ -337,7 +331,6 @@ coupler::Ledger ParticleExchange<D>::ledger(const Particles<D>& particles) const
   ledger.n_removed = static_cast<double>(counts_.removed_crossing + counts_.removed_nearest);
   Compensated defect = inside;
   defect += ledger.mass_on_faces;
-  defect += lost_;
   defect -= start_mass_.value();
   defect -= ledger.mass_flux;
   ledger.defect = defect.value();
@@ -347,7 +340,7 @@ coupler::Ledger ParticleExchange<D>::ledger(const Particles<D>& particles) const
 template <int D>
 std::vector<double> ParticleExchange<D>::pack() const {
   std::vector<double> packed = elements_.pack();
-  for (const Compensated* sum : {&start_mass_, &injected_, &removed_, &lost_}) {
+  for (const Compensated* sum : {&start_mass_, &injected_, &removed_}) {
     packed.push_back(sum->sum());
     packed.push_back(sum->carry());
   }
@@ -356,8 +349,7 @@ std::vector<double> ParticleExchange<D>::pack() const {
 
 template <int D>
 std::vector<std::int64_t> ParticleExchange<D>::pack_counts() const {
-  std::vector<std::int64_t> packed = {counts_.injected, counts_.removed_crossing, counts_.removed_nearest,
-                                      counts_.lost};
+  std::vector<std::int64_t> packed = {counts_.injected, counts_.removed_crossing, counts_.removed_nearest};
   for (const auto* by_face : {&counts_.injected_through, &counts_.removed_through})
     packed.insert(packed.end(), by_face->begin(), by_face->end());
   return packed;
@@ -365,21 +357,20 @@ std::vector<std::int64_t> ParticleExchange<D>::pack_counts() const {
 
 template <int D>
 void ParticleExchange<D>::unpack(const std::vector<double>& packed, const std::vector<std::int64_t>& counts) {
-  constexpr std::size_t tail = 8;
+  constexpr std::size_t tail = 6;
   if (packed.size() < tail || counts.size() != pack_counts().size())
     throw IoError("particle exchange: the record is too short.");
   const std::size_t first = packed.size() - tail;
   elements_.unpack(std::vector<double>(packed.begin(), packed.begin() + static_cast<std::ptrdiff_t>(first)));
   std::size_t k = first;
-  for (Compensated* sum : {&start_mass_, &injected_, &removed_, &lost_}) {
+  for (Compensated* sum : {&start_mass_, &injected_, &removed_}) {
     *sum = Compensated(packed[k], packed[k + 1]);
     k += 2;
   }
   counts_.injected = counts[0];
   counts_.removed_crossing = counts[1];
   counts_.removed_nearest = counts[2];
-  counts_.lost = counts[3];
-  auto next = counts.begin() + 4;
+  auto next = counts.begin() + 3;
   for (auto* by_face : {&counts_.injected_through, &counts_.removed_through})
     for (auto& count : *by_face) count = *next++;
 }

@@ -32,7 +32,6 @@ struct ExchangeCounts {
   std::int64_t injected = 0;
   std::int64_t removed_crossing = 0;
   std::int64_t removed_nearest = 0;
-  std::int64_t lost = 0;  ///< taken out by others than the exchange (reported with lose())
   /// By face: 2 axis + side, axes (x, y, z) of space, sides lower and upper; boxes together.
   std::array<std::int64_t, 6> injected_through{}, removed_through{};
 };
@@ -61,9 +60,6 @@ class ParticleExchange {
   /// particles appeared or vanished: indices and neighbour lists are void then comm: collective. throws
   /// CouplingError: no donors where a particle has to appear
   bool step(Particles<D>& particles, const Exterior& fv, double time, double dt);
-
-  /// A particle that someone else takes out: its mass is part of the ledger.
-  void lose(double mass);
 
   /// This rank's part of the ledger: what all ranks know is rank 0's part. throws nothing
   coupler::Ledger ledger(const Particles<D>& particles) const;
@@ -112,7 +108,7 @@ class ParticleExchange {
   Removal removal_ = Removal::crossing;
   FaceElements<D> elements_;
   OtherRanks<D>* others_ = nullptr;
-  Compensated start_mass_, injected_, removed_, lost_;
+  Compensated start_mass_, injected_, removed_;
   ExchangeCounts counts_;
   std::vector<char> doomed_;  // of the step at hand
   std::size_t n_doomed_ = 0;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -13,7 +14,8 @@
 namespace littoral::sph {
 
 /// Distance to the surface as its particles tell it: (20), averaged with the kernel over the surface
-/// particles around the nearest one (a single particle's position is noise of .03 dx).
+/// particles around the nearest one (a single particle's position is noise of .03 dx). Sums run in the order
+/// of ids, and of two as near the lower id is taken, however particles are stored and shared among ranks.
 template <int D>
 class SurfaceDistance {
  public:
@@ -41,6 +43,7 @@ class SurfaceDistance {
   Kernel<D> kernel_;
   double spacing_, band_;
   std::array<std::vector<double>, D> x_, normal_;  // of the surface particles and their copies
+  std::vector<std::int64_t> id_;
   CellGrid<D> grid_;
 };
 

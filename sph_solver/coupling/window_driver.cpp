@@ -118,7 +118,7 @@ void WindowDriver<D>::advance(const coupler::Agreement& agreement, Particles<D>&
 template <int D>
 void WindowDriver<D>::send_samples(const coupler::Window& window, Particles<D>& particles,
                                    Dynamics<D>& dynamics) {
-  dynamics.prepare(particles, window.t_end, &hooks_);
+  dynamics.prepare(particles, window.t_end, &hooks_, dynamics.stable_time_step());
   samples_.time = window.t_end;
   sample_states(particles, layers(), sample_rules_, partner_.targets(), samples_, dynamics.walls(),
                 &dynamics.ghosts());

@@ -44,7 +44,6 @@ std::vector<std::string> scalar_columns(const support::Scene& scene) {
                                       "ledger_defect",
                                       "n_removed_crossing",
                                       "n_removed_nearest",
-                                      "n_lost",
                                       "n_blending",
                                       "n_driven",
                                       "n_without_donors"};
@@ -195,7 +194,6 @@ void Output<D>::write_rows(const Moment& now, const Particles<D>& particles, con
                              ledger.defect,
                              static_cast<double>(now.exchanged.removed_crossing),
                              static_cast<double>(now.exchanged.removed_nearest),
-                             static_cast<double>(now.exchanged.lost),
                              static_cast<double>(in_layers.blending),
                              static_cast<double>(in_layers.driven),
                              static_cast<double>(in_layers.unreached)};

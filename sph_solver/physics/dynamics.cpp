@@ -127,16 +127,20 @@ void Dynamics<D>::prepare(Particles<D>& particles, double t, StepHooks<D>* hooks
       surface_current_ = false;
     } else {
       ghosts_.refresh(particles);
-      if (walls_ && walls_->outdated()) walls_->build(particles);
+      if (walls_ && walls_->outdated()) {
+        walls_->build(particles);
+        surface_current_ = false;  // the walls' support belongs to their rows
+      }
     }
   }
+  if (surface_current_) return;
+  surface_current_ = true;
   if (walls_ && (numerics_.free_surface || numerics_.shifting)) {
     const PhaseSeconds::Scope scope(seconds_, Phase::walls);
     walls_->find_support(particles, neighbors_);
   }
-  if (numerics_.free_surface && !surface_current_) {
+  if (numerics_.free_surface) {
     const PhaseSeconds::Scope scope(seconds_, Phase::surface);
-    surface_current_ = true;
     // a step's shift is due next, of the same positions
     crowding_known_ = numerics_.shifting && dt > 0.0;
     surface_.detect(particles, neighbors_, ghosts_, walls_ ? &walls_->support() : nullptr, crowding_known_);

@@ -53,7 +53,8 @@ class Dynamics {
   void step(Particles<D>& particles, double t, double dt, StepHooks<D>* hooks);
 
   /// Makes copies and lists belong to the particles as they stand (sorting them if lists are made anew), so
-  /// that points can be sampled and the surface is known. step() does this itself, ahead for its own dt.
+  /// that points can be sampled and the surface is known. dt: of the step that comes next, for which they
+  /// hold as well; 0: none is meant. step() does this itself
   void prepare(Particles<D>& particles, double t, StepHooks<D>* hooks, double dt = 0.0);
 
   /// The particles were changed from outside (put back to an earlier state, say): lists and copies are made
@@ -113,7 +114,7 @@ class Dynamics {
   std::vector<std::unique_ptr<Term<D>>> terms_;
   std::unique_ptr<Walls<D>> walls_;
   TensionSwitch<D>* tension_ = nullptr;  // among terms_, if the scene asks for it
-  bool surface_current_ = false;         // flags belong to the positions as they stand
+  bool surface_current_ = false;         // flags and the walls' support belong to the positions
   bool crowding_known_ = false;          // detection has left it for the shift of this step
   double pressure_level_;                // [Pa] taken off in the pair loops
   double most_acceleration_ = 0.0;       // [m/s^2] of the last right-hand side, driven particles apart

@@ -121,7 +121,7 @@ struct Channel {
   Numerics<2> numerics;
   std::unique_ptr<Dynamics<2>> dynamics;
 
-  explicit Channel(const char* speed, double stream) {
+  Channel(const char* speed, double stream, double place = 25.0) {
     numerics.eos = {1.0, k_c, 0.0};
     numerics.spacing = 1.0;
     numerics.kernel_radius = 4.0;
@@ -135,7 +135,7 @@ struct Channel {
     cylinder.name = "cylinder";
     cylinder.shape = Spec::Shape::cylinder;
     cylinder.radius = 5.0;
-    cylinder.position = {25, 0, 12.5};
+    cylinder.position = {place, 0, 12.5};
     cylinder.motion.given = true;
     cylinder.motion.u = support::Formula(speed);
     std::vector<Body> bodies;
@@ -173,6 +173,22 @@ TEST(BodiesExtremesTest, AMovedCylinderGivesTheWaterNoMoreThanItsWork) {
   EXPECT_LT(energy, channel.work);
   // and keeps what an ideal fluid would have, rho pi r^2 U^2 / 2 in water without bounds
   EXPECT_GT(energy, 0.8 * 0.5 * 3.14159 * 25.0);
+}
+
+TEST(BodiesExtremesTest, AcrossAPeriodicSideABodyIsWhatItIsInTheMiddle) {
+  Channel middle("min(t/5,1)", 0.3);
+  middle.run(4.0);
+  for (const double place : {0.0, 50.0, 23.0}) {
+    Channel shifted("min(t/5,1)", 0.3, place);
+    ASSERT_EQ(shifted.particles.n_owned, middle.particles.n_owned) << place;
+    shifted.run(4.0);
+    EXPECT_NEAR(shifted.kinetic_energy(), middle.kinetic_energy(), 1e-9 * middle.kinetic_energy()) << place;
+    EXPECT_NEAR(shifted.work, middle.work, 1e-9 * std::fabs(middle.work)) << place;
+    const BodyLoad &load = shifted.dynamics->walls()->loads()[0],
+                   &expected = middle.dynamics->walls()->loads()[0];
+    EXPECT_NEAR(load.pressure_moment[1], expected.pressure_moment[1], 1e-8 * norm(expected.pressure))
+        << place;
+  }
 }
 
 TEST(BodiesExtremesTest, AStreamAboutAFixedCylinderLosesEnergyAndPushesItAlong) {

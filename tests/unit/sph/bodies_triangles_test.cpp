@@ -80,6 +80,9 @@ TEST(BodiesTrianglesTest, FaultsAreNamed) {
   EXPECT_NE(message(twisted).find("opposite orientation"), std::string::npos) << message(twisted);
   EXPECT_NE(message(crowded).find("more than two triangles"), std::string::npos) << message(crowded);
   EXPECT_NE(message({}).find("no triangle"), std::string::npos);
+  TriangleSoup nowhere = box(1, 1, 1);
+  nowhere[4][1][2] = std::nan("");
+  EXPECT_NE(message(nowhere).find("triangle 5"), std::string::npos) << message(nowhere);
 }
 
 TEST(BodiesTrianglesTest, ReadsTextAndScalesIt) {

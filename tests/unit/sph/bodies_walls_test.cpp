@@ -197,10 +197,10 @@ TEST(BodiesWallsTest, ParticlesThatEnteredSlightlyArePutBackAndTheBodyGetsTheirM
   const auto start = particles.x;
   particles.x[1][0] = -0.2;
   particles.u[1][0] = -3.0;
+  walls->begin_step(0.5);
   EXPECT_EQ(walls->keep_out(particles, start, 0.5, 0.0), 1u);
   EXPECT_NEAR(particles.x[1][0], 0.2, 1e-12);
   EXPECT_NEAR(particles.u[1][0], 3.0, 1e-12);
-  walls->begin_step(0.5);
   EXPECT_NEAR(walls->loads()[0].pressure[2], -particles.m[0] * 6.0 / 0.5, 1e-12);
   particles.x[1][0] = -0.7;
   try {
@@ -265,6 +265,25 @@ TEST(BodiesWallsTest, FasterThanSoundIsRefused) {
   moving.motion.u = support::Formula(1.1 * k_c);
   const auto walls = walls_of<2>({moving}, numerics, open_box<2>(10));
   EXPECT_THROW(walls->move_to(0.0), StabilityError);
+}
+
+TEST(BodiesWallsTest, AMotionWithoutAFiniteValueIsRefusedWithItsKey) {
+  const auto numerics = numerics_of_unit_lattice<2>();
+  const auto message = [&](const Spec& spec, double t) {
+    try {
+      walls_of<2>({spec}, numerics, open_box<2>(10))->move_to(t);
+    } catch (const StabilityError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  Spec from_nothing = tank(2, 10), later = from_nothing;
+  from_nothing.motion.given = later.motion.given = true;
+  from_nothing.motion.w = support::Formula("0/t");
+  later.motion.rate_y = support::Formula("0.1*sqrt(2-t)");
+  EXPECT_NE(message(from_nothing, 0.0).find("t = 0 s: body 'tank': its motion.w"), std::string::npos);
+  EXPECT_EQ(message(later, 1.0), "");
+  EXPECT_NE(message(later, 3.0).find("motion.rate_y"), std::string::npos) << message(later, 3.0);
 }
 
 TEST(BodiesDummiesTest, FillEachPlaceOnceWhereBodiesOverlapAndAcrossPeriodicSides) {

@@ -75,6 +75,19 @@ void add_target(coupler::Targets& targets, double x, double y, double z) {
   targets.wants.push_back(coupler::wants_phi);
 }
 
+TEST(LevelSetTest, DoesNotDependOnTheOrderInMemory) {
+  coupler::Targets targets;
+  for (int k = 0; k < 40; ++k) add_target(targets, 12.3 * std::cos(0.16 * k), 0.0, 12.3 * std::sin(0.16 * k));
+  auto particles = ball<2>(12), turned = particles;
+  std::vector<std::int32_t> order(particles.n_owned);
+  for (std::size_t k = 0; k < order.size(); ++k)
+    order[k] = static_cast<std::int32_t>((7 * k + 3) % order.size());
+  turned.permute(order);
+  const auto expected = level_set<2>(particles, everywhere<2>(), 4.0, targets),
+             found = level_set<2>(turned, everywhere<2>(), 4.0, targets);
+  for (std::size_t k = 0; k < targets.size(); ++k) EXPECT_EQ(expected.phi[k], found.phi[k]) << k;
+}
+
 /// Points of the band around a ball, two spacings to either side.
 template <int D>
 void expect_distance_to_ball(int rows, double radius) {

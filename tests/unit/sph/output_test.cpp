@@ -58,13 +58,11 @@ TEST_F(OutputTest, TellsWhatTheLayersAndTheOuterFacesDid) {
   now.exchanged.removed_nearest = 2;
   now.exchanged.injected_through = {1, 2, 0, 0, 5, 6};
   now.exchanged.removed_through = {7, 8, 0, 0, 11, 12};
-  now.exchanged.lost = 4;
   now.layers = {11, 12, 13};
   output.write_rows(now, particles, dynamics, Layers<2>::from_scene(config.scene, 4.0));
   auto row = last_row();
   EXPECT_EQ(row["n_removed_crossing"], 3.0);
   EXPECT_EQ(row["n_removed_nearest"], 2.0);
-  EXPECT_EQ(row["n_lost"], 4.0);
   EXPECT_EQ(row["n_injected_x_lower"], 1.0);
   EXPECT_EQ(row["n_injected_z_upper"], 6.0);
   EXPECT_EQ(row["n_removed_x_upper"], 8.0);
