@@ -88,8 +88,8 @@ struct Block {
   std::vector<Window<D>> windows;      // cover every face once
 };
 
-/// Share of a cell's volume that integrals over the water count: 1 in solved cells; of overlapping grids the part
-/// that no grid above it has (overset/assembly.hpp); 0 in cells of a partner. pure
+/// Share of a cell's volume that integrals over the water count: 1 in solved cells; of overlapping grids the
+/// part that no grid above it has (overset/assembly.hpp); 0 in cells of a partner. pure
 template <int D>
 double counted_share(const Block<D>& block, std::size_t c) {
   const CellStatus status = block.status[c];

@@ -147,7 +147,8 @@ void measure_steps(const std::string& name, Stepper<D>& stepper, double dt) {
   std::printf("  %-34s %8.0f cells   %4.1f cycles   %6.3f s a step and million cells (processor %.3f s)\n",
               name.c_str(), n, cycles / static_cast<double>(k_steps), seconds / n * 1e6, processor / n * 1e6);
   if (stepper.surface() != nullptr)
-    std::printf("    of which the surface %.0f%%\n", 100.0 * (surface_seconds() - surface_start) / all_seconds);
+    std::printf("    of which the surface %.0f%%\n",
+                100.0 * (surface_seconds() - surface_start) / all_seconds);
   std::fflush(stdout);
 }
 
