@@ -110,12 +110,57 @@ Closing<D> resolve(const FaceConfig& face, const Block<D>& block, const FaceCond
   return closing;
 }
 
+/// What a condition is called, and which of a face's values it uses.
+struct Uses {
+  Condition condition;
+  const char* name;
+  bool velocity, pressure, surface, wave_speed;
+};
+constexpr Uses k_uses[] = {
+    {Condition::wall, "wall", true, false, false, false},
+    {Condition::slip, "slip", false, false, false, false},
+    {Condition::symmetry, "symmetry", false, false, false, false},
+    {Condition::inflow, "inflow", true, false, true, false},
+    {Condition::outflow, "outflow", false, true, true, false},
+    {Condition::convective, "convective", true, true, true, true},
+    {Condition::far_field, "far_field", true, true, true, true},
+    {Condition::state, "state", true, true, true, false},
+    {Condition::periodic, "periodic", false, false, false, false},
+    {Condition::fringe, "fringe", false, false, false, false},
+    {Condition::join, "join", false, false, false, false},
+    {Condition::overset, "overset", false, false, false, false},
+};
+
+/// A value that is not used, or an inflow without one, is a mistake of the user's.
+/// throws ConfigError naming the face
+void check_values(const FaceConfig& face, Condition condition, const std::string& name) {
+  const Uses& uses = *std::find_if(std::begin(k_uses), std::end(k_uses),
+                                   [&](const Uses& u) { return u.condition == condition; });
+  std::string unused;
+  const auto refuse = [&](bool given, bool used, const char* key) {
+    if (given && !used) unused += std::string(unused.empty() ? "" : ", ") + key;
+  };
+  refuse(face.u.has_value(), uses.velocity, "u");
+  refuse(face.v.has_value(), uses.velocity, "v");
+  refuse(face.w.has_value(), uses.velocity, "w");
+  refuse(face.p.has_value(), uses.pressure, "p");
+  refuse(face.surface.has_value(), uses.surface, "surface");
+  refuse(face.wave_speed != 0.0, uses.wave_speed, "wave_speed");
+  if (!unused.empty())
+    throw ConfigError("face '" + name + "': condition " + uses.name + " does not use " + unused +
+                      "; leave it out, or choose another condition");
+  if (condition == Condition::inflow && !face.u && !face.v && !face.w)
+    throw ConfigError("face '" + name +
+                      "': an inflow needs its velocity: u, v or w (0 for a wall of water at rest)");
+}
+
 template <int D>
 Window<D> window_of(const FaceConfig& face, const Closing<D>& closing, const support::Scene& scene,
                     std::size_t d, std::size_t side, const std::string& fallback_name) {
   Window<D> w;
   w.name = face.name.empty() ? fallback_name : face.name;
   w.condition = closing.condition;
+  check_values(face, w.condition, w.name);
   w.request = closing.request;
   w.direction = static_cast<int>(d);
   w.side = static_cast<int>(side);

@@ -1,6 +1,7 @@
 #include "grid/plot3d.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -303,7 +304,7 @@ std::string describe(const Plot3dFile& file) {
 
 Plot3dFile read_plot3d(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
-  if (!in) throw IoError(path + ": cannot be read");
+  if (!in) throw IoError(path + ": cannot be read: " + std::strerror(errno));
   std::ostringstream content;
   content << in.rdbuf();
   const std::string bytes = content.str();

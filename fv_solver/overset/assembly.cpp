@@ -62,6 +62,7 @@ class Assembler {
     find_links(result);
     for (std::size_t c = 0; c < n_components_; ++c) share_out(c);
     describe(result);
+    note_one_way(result);
     return result;
   }
 
@@ -274,6 +275,34 @@ class Assembler {
             std::to_string(2 * options_.fringe_layers + options_.overlap) +
             " at least, of about equal size), refine the grid below, or make overset.overlap smaller.";
     throw ConfigError(text);
+  }
+
+  /// Where the grids below have no hole, values pass upwards only: they do not know of what lies over them.
+  /// throws ConfigError where that is a wall
+  void note_one_way(OversetAssembly<D>& result) const {
+    for (std::size_t c = 1; c < n_components_; ++c) {
+      bool lies_over = false, has_walls = false, seen = false;
+      std::string name;
+      for (const std::size_t b : blocks_of(c)) {
+        name = blocks_[b].name;
+        lies_over = lies_over || any_overset(blocks_[b]);
+        for (const Window<D>& w : blocks_[b].windows)
+          has_walls = has_walls || w.condition == Condition::wall || w.condition == Condition::slip;
+      }
+      for (std::size_t b = 0; b < blocks_.size(); ++b)
+        seen = seen || (component_[b] < c &&
+                        std::any_of(blocks_[b].status.begin(), blocks_[b].status.end(), [](CellStatus s) {
+                          return s == CellStatus::interpolated || s == CellStatus::blanked;
+                        }));
+      if (!lies_over || seen) continue;
+      const std::string text =
+          "overset: the grids below '" + name +
+          "' take no value from it: their cells are too wide for a hole under its solved part";
+      if (has_walls)
+        throw ConfigError(text +
+                          ", so they would not know of its walls; refine them there, or make it larger");
+      result.notes.push_back("warning: " + text);
+    }
   }
 
   void describe(OversetAssembly<D>& result) const {

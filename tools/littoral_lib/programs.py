@@ -32,9 +32,12 @@ def own_folders(root):
     return [root.parents[1] / "bin"]
 
 
-def environment(threads):
-    """Environment of a job: OpenMP with polite waiting, and Open MPI's consent to run as root."""
+def environment(threads, ranks=1):
+    """Environment of a job: polite waiting, and Open MPI's consent to run as root. A rank that waits for a message spins
+    for it, hundreds of times a step: where all cores are taken it must let others have its core."""
     env = dict(os.environ, OMP_NUM_THREADS=str(threads), OMP_WAIT_POLICY="passive")
+    if ranks > 1 and ranks * threads >= cores():
+        env.setdefault("OMPI_MCA_mpi_yield_when_idle", "1")
     env.setdefault("OMP_PROC_BIND", "false")
     if hasattr(os, "geteuid") and os.geteuid() == 0:
         env.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")

@@ -81,7 +81,7 @@ def run(scene, out, sph_ranks=1, fv_ranks=1, threads=None, restart=None, restart
     (out / "command").write_text(shlex.join(line) + "\n", encoding="utf-8")
     console = Console(scene.programs, out / "console.log", quiet)
     try:
-        result = launch.execute(line, programs.environment(threads), console.line, timeout)
+        result = launch.execute(line, programs.environment(threads, sum(used)), console.line, timeout)
     finally:
         console.close()
     job = {"status": result.status, "ranks": {p: ranks[p] for p in scene.programs}, "threads": threads,

@@ -24,9 +24,7 @@ def measure(program, folder, ranks, blocks, threads, solver="sph"):
     out = folder / f"ranks{ranks}_blocks{blocks}"
     line = ["mpirun"] + (["--bind-to", "none", "--oversubscribe"] if launch.is_open_mpi() else [])
     line += ["-n", str(ranks), program, "--config", str(scene), "--out", str(out), "--set", f"scene.constants.blocks={blocks}"]
-    environment = programs.environment(threads)
-    if ranks > (os.cpu_count() or 1):
-        environment["OMPI_MCA_mpi_yield_when_idle"] = "1"
+    environment = programs.environment(threads, ranks)
     done = subprocess.run(line, env=environment, capture_output=True, text=True, check=False)
     if done.returncode != 0:
         raise UserError(f"{solver}_solver failed:\n" + done.stdout + done.stderr)

@@ -64,6 +64,24 @@ std::string refusal(const std::string& config, const std::string& domain) {
   return "nothing was refused";
 }
 
+TEST(GridConfigTest, ValuesThatAConditionDoesNotUseAreRefused) {
+  const auto with = [](const std::string& face) {
+    return refusal(
+        "blocks:\n  - {name: a, lower: [0, 0, 0], upper: [2, 1, 1], cells: [4, 1, 4], faces: {x_lower: " +
+            face +
+            ", x_upper: {condition: outflow}, z_lower: {condition: slip}, z_upper: {condition: slip}}}\n",
+        k_open);
+  };
+  EXPECT_EQ(with("{condition: inflow, u: 1}"), "nothing was refused");
+  EXPECT_EQ(with("{condition: wall, w: 1}"), "nothing was refused");
+  EXPECT_NE(with("{condition: inflow}").find("an inflow needs its velocity"), std::string::npos);
+  EXPECT_NE(with("{condition: outflow, u: 3, wave_speed: 9}").find("outflow does not use u, wave_speed"),
+            std::string::npos);
+  EXPECT_NE(with("{condition: wall, p: 7}").find("face 'a.x_lower': condition wall does not use p"),
+            std::string::npos);
+  EXPECT_NE(with("{condition: symmetry, u: 1}").find("symmetry does not use u"), std::string::npos);
+}
+
 TEST(GridConfigTest, FacesThatMeetNobodyAreNamedAllAtOnce) {
   const std::string text = refusal(k_pair, k_open);
   for (const char* face : {"block 'a', face x_lower", "block 'a', face z_upper", "block 'b', face x_upper"})

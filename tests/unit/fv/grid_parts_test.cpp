@@ -145,6 +145,7 @@ TEST(GridFileTest, ALeftHandedBlockKeepsTheNamesOfItsFaces) {
   inflow.face = 0;  // i_lower of the file
   inflow.condition = closed(Condition::inflow);
   inflow.condition.name = "in";
+  inflow.condition.u = support::Formula("1", {});
   config.faces.push_back(inflow);
   for (const int face : {1, 2, 3}) {
     inflow.face = face;

@@ -277,6 +277,28 @@ TEST(OversetVortexTest, SecondOrderThroughTheOverlap) {
   EXPECT_LT(jump_fine, 6.0 * fine);  // largest at the fringe against the mean everywhere
 }
 
+TEST(OversetHoleTest, AWallThatTheGridBelowDoesNotSeeIsRefused) {
+  for (const auto condition : {Condition::wall, Condition::overset}) {
+    std::vector<Block<2>> blocks;
+    blocks.push_back(make_block<2>("coarse", {2, 2}, {}, [](const std::array<int, 2>& i) {
+      return std::array<double, 2>{10.0 * i[0], 10.0 * i[1]};
+    }));
+    blocks.push_back(make_block<2>("patch", {12, 12}, {}, [](const std::array<int, 2>& i) {
+      return std::array<double, 2>{9.4 + 0.1 * i[0], 9.4 + 0.1 * i[1]};
+    }));
+    for (int d = 0; d < 2; ++d)
+      for (int side = 0; side < 2; ++side) {
+        window<2>(blocks[0], d, side, Condition::slip);
+        window<2>(blocks[1], d, side, d == 0 && side == 0 ? condition : Condition::overset);
+      }
+    if (condition == Condition::wall) {
+      EXPECT_THROW(assemble_overset<2>(blocks, {}), ConfigError);
+    } else {
+      EXPECT_NE(assemble_overset<2>(blocks, {}).notes.back().find("warning"), std::string::npos);
+    }
+  }
+}
+
 /// Two patches, turned, over a box and over each other: every place is counted once.
 TEST(OversetPartitionTest, EveryPlaceIsCountedOnce) {
   const auto patch = [](const char* name, double x, double angle, int n) {
