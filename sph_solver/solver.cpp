@@ -6,6 +6,7 @@
 #include <limits>
 #include <sstream>
 
+#include "coupling/bodies_in_layers.hpp"
 #include "littoral/coupler/job.hpp"
 #include "littoral/error.hpp"
 #include "littoral/support/checkpoint.hpp"
@@ -109,9 +110,21 @@ void Solver<D>::begin() {
     announce();
   }
   if (restart_) return;
+  keep_layers_clear();
   dynamics_.prepare(particles_, time_, hooks(), dynamics_.stable_time_step());
   output_.write_rows(moment({}), particles_, dynamics_, layers_);
   output_.write_fields(time_, particles_);
+}
+
+template <int D>
+void Solver<D>::keep_layers_clear() {
+  if (!driver_ || dynamics_.walls() == nullptr) return;
+  const std::string fault =
+      body_in_the_layers<D>(*dynamics_.walls(), layers_, driver_->hooks().exchange().elements());
+  if (fault.empty()) return;
+  std::ostringstream text;
+  text << "t = " << time_ << " s: " << fault;
+  throw ConfigError(text.str());
 }
 
 template <int D>
@@ -200,6 +213,7 @@ void Solver<D>::advance(const coupler::Agreement& agreement) {
     }
     if (agreement.region_changed) announce();
     driver_->advance(agreement, particles_, dynamics_);
+    keep_layers_clear();
   } else {
     for (int k = 0; k < window.substeps; ++k)
       step(window.t_begin + k * window.substep_dt(), window.substep_dt());

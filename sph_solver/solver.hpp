@@ -41,6 +41,7 @@ class Solver {
  private:
   void begin();
   void announce();
+  void keep_layers_clear();  ///< throws ConfigError: a body reaches into the coupling layers
   coupler::Agreement agree();
   void advance(const coupler::Agreement& agreement);
   void write(const coupler::Agreement& agreement);

@@ -253,11 +253,17 @@ double Walls<D>::coverage(const std::array<double, D>& x) const {
 }
 
 template <int D>
-bool Walls<D>::inside(const std::array<double, D>& x) const {
+const Body* Walls<D>::holder(const std::array<double, D>& x) const {
   const Vector3 place = in_scene<D>(x);
-  return std::any_of(bodies_.begin(), bodies_.end(), [&](const Body& body) {
+  const auto found = std::find_if(bodies_.begin(), bodies_.end(), [&](const Body& body) {
     return body.closest_wall(nearest_image<D>(box_, body, place)).distance <= k_on_body * numerics_.spacing;
   });
+  return found == bodies_.end() ? nullptr : &*found;
+}
+
+template <int D>
+bool Walls<D>::inside(const std::array<double, D>& x) const {
+  return holder(x) != nullptr;
 }
 
 template class Walls<2>;

@@ -79,8 +79,9 @@ class Walls {
   const std::vector<Body>& bodies() const { return bodies_; }
   const Dummies<D>& dummies() const { return dummies_; }
   const WallList<D>& list() const { return list_; }
-  double coverage(const std::array<double, D>& x) const;  ///< sum_w V_w W at a point: the bodies' share
-  bool inside(const std::array<double, D>& x) const;      ///< a body, or on a sheet
+  double coverage(const std::array<double, D>& x) const;     ///< sum_w V_w W at a point: the bodies' share
+  bool inside(const std::array<double, D>& x) const;         ///< a body, or on a sheet
+  const Body* holder(const std::array<double, D>& x) const;  ///< that body; null: none
   /// A sheet stands between two points.
   bool between(const std::array<double, D>& x, const std::array<double, D>& y) const {
     return sheets_.between(bodies_, box_, x, y);

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "coupling/bodies_in_layers.hpp"
 #include "coupling/coupling_hooks.hpp"
 #include "coupling/face_elements.hpp"
 #include "coupling_support.hpp"
@@ -120,6 +121,33 @@ TEST(CouplingHooksTest, NormalIsPhisGradientWhereTheGridKnowsOneSideOnly) {
   ASSERT_EQ(particles.surface[0], SurfaceFlag::surface);
   EXPECT_NEAR(particles.normal[0][0], 0.6, 1e-12);
   EXPECT_NEAR(particles.normal[1][0], 0.8, 1e-12);
+}
+
+TEST(BodiesInLayersTest, AreNamedWithTheirPlace) {
+  const auto layers = test::unit_box<2>(test::all_open<2>(), 0.25, 0.25);  // outer faces at -.5 and 1.5
+  const FaceElements<2> faces(layers, 0.05, FaceRows::fixed);
+  Numerics<2> numerics;
+  numerics.eos = k_eos;
+  numerics.spacing = 0.05;
+  numerics.kernel_radius = 0.2;
+  DomainBox<2> domain;
+  domain.lower.fill(-2.0);
+  domain.upper.fill(3.0);
+  const auto fault = [&](double x, double size) {
+    support::BodySpec spec;
+    spec.name = "pier";
+    spec.size = {size, 0, size};
+    spec.position = {x, 0, 0.5};
+    std::vector<Body> bodies;
+    bodies.emplace_back(spec, true, 0.1);
+    const Walls<2> walls(std::move(bodies), numerics, domain, Lattice<2>{{}, 0.05});
+    return body_in_the_layers<2>(walls, layers, faces);
+  };
+  EXPECT_EQ(fault(0.5, 0.4), "");
+  EXPECT_EQ(fault(2.2, 0.4), "");  // beyond the outer face: no water of these particles
+  for (const double x : {-0.1, -0.4, 1.2, 1.6})
+    EXPECT_NE(fault(x, 0.4).find("body 'pier' reaches into the coupling layers"), std::string::npos) << x;
+  EXPECT_NE(fault(2.4, 2.5), "");  // wide enough to have no dummies in the layer's middle
 }
 
 }  // namespace
