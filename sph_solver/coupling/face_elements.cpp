@@ -198,7 +198,9 @@ double FaceElements<D>::wet_part(const Exterior& fv, std::size_t e, double phi_c
 template <int D>
 void FaceElements<D>::integrate(const Exterior& fv, const LinearEos& eos, double time, double dt) {
   const double half_time = time + 0.5 * dt;
-  if (fv.with_phi() && !columns_.empty()) follow_level(fv, half_time);
+  // a rank without a donor cell has no phi of its own, and must take part in what follows all the same
+  const bool with_phi = others_ != nullptr ? others_->any(fv.with_phi()) : fv.with_phi();
+  if (with_phi && !columns_.empty()) follow_level(fv, half_time);
   std::vector<double> gain(size(), 0.0);
   std::vector<char> missing(size(), 0);
   in_team(size(), [&](std::size_t e) {
@@ -210,13 +212,13 @@ void FaceElements<D>::integrate(const Exterior& fv, const LinearEos& eos, double
       missing[e] = 1;
       return;
     }
-    const double wet = fv.with_phi() && !element.stretched ? wet_part(fv, e, state->phi, half_time) : 1.0;
+    const double wet = with_phi && !element.stretched ? wet_part(fv, e, state->phi, half_time) : 1.0;
     speed_[e] = element.inward * state->u[space_axis<D>(element.axis)];
     gain[e] = eos.density(state->p) * wet * speed_[e] * element.area * dt;  // (18), (19), with rho(p)
   });
   const auto first_missing =
       static_cast<std::size_t>(std::find(missing.begin(), missing.end(), 1) - missing.begin());
-  if (first_missing < size() && !fv.with_phi()) {
+  if (first_missing < size() && !with_phi) {
     const auto x = to_vec3<D>(elements_[first_missing].centre);
     std::ostringstream text;
     text << "t = " << time << " s: no donor cells at the SPH region's outer face, point (" << x[0] << ", "
