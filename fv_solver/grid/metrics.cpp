@@ -1,6 +1,8 @@
 #include "grid/metrics.hpp"
 
 #include <cmath>
+#include <exception>
+#include <string>
 
 #include "grid/loops.hpp"
 #include "littoral/error.hpp"
@@ -197,7 +199,14 @@ Block<D> make_block(const std::string& name, const std::array<int, D>& cells,
   std::array<int, D> nodes = cells;
   for (int& n : nodes) ++n;
   block.node_extent = Extent<D>(nodes);
-  for (auto& f : block.node) f.assign(block.node_extent.size, 0.0);
+  try {
+    for (auto& f : block.node) f.assign(block.node_extent.size, 0.0);
+  } catch (const std::exception&) {  // bad_alloc, length_error
+    std::string counts;
+    for (const int n : cells) counts += (counts.empty() ? "" : " x ") + std::to_string(n);
+    throw ConfigError("block '" + name + "': there is no memory for " + counts +
+                      " cells; a run needs about 2.5 kB for each");
+  }
   for_each_index<D>({}, nodes, [&](const std::array<int, D>& index) {
     const auto x = position(index);
     const auto n = static_cast<std::size_t>(block.node_extent.at(index));
