@@ -139,8 +139,11 @@ std::int64_t read_checkpoint(const std::string& path, Stepper<D>& stepper, const
     for_each_index<D>({}, block.extent.n, [&](const std::array<int, D>& index) {
       const auto c = static_cast<std::size_t>(block.extent.at(index));
       const auto then = static_cast<CellStatus>(static_cast<int>(own[c]));
-      const bool overlap = then == CellStatus::interpolated || block.status[c] == CellStatus::interpolated;
-      other_overlap += overlap && then != block.status[c] ? 1.0 : 0.0;
+      // as assembled, before a region is carved out; the file has them as the region left them
+      const CellStatus now = block.status[c];
+      const bool lost = then == CellStatus::interpolated && now != CellStatus::interpolated;
+      const bool gained = now == CellStatus::interpolated && then == CellStatus::computed;
+      other_overlap += lost || gained ? 1.0 : 0.0;
       block.status[c] = then;
     });
     set_solved_mask(block);
