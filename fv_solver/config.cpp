@@ -164,13 +164,9 @@ void FvConfig::bind(Binder& b) {
                  {"y_plus", GaugeConfig::Kind::y_plus}})
         .doc(
             "point: p, u, v, w at a place; elevation: height of the free surface, against gravity, on the "
-            "line "
-            "through a place (nan where there is none); force: force and moment on a wall, in all, without "
-            "the "
-            "hydrostatic "
-            "part (dynamic), of pressure and of friction; y_plus: largest and mean distance of a wall's "
-            "first "
-            "centres in wall units.");
+            "line through a place (nan where there is none); force: force and moment on a wall, in all, "
+            "without the hydrostatic part (dynamic), of pressure and of friction; y_plus: largest and mean "
+            "distance of a wall's first centres in wall units.");
     item.key("at", g.at).unit("m").doc("Place; point and elevation.");
     item.key("wall", g.wall).doc("Name of the wall; force and y_plus.");
     item.key("moment_about", g.moment_about).unit("m").doc("Centre of the moments; force only.");

@@ -206,8 +206,7 @@ Stepper<D> make_stepper(const FvConfig& config, const support::Scene& scene, std
   if (config.level_set.volume_correction == Correction::local && !grid.overset.links.empty())
     throw ConfigError(
         "level_set.volume_correction: local: not on overlapping grids, where water that two of them hold is "
-        "no "
-        "body of its own; use none");
+        "no body of its own; use none");
   check_apart<D>(grid.blocks);
   std::vector<std::string> told = grid.notes;
   for (std::string& gap : check_covered<D>(grid.blocks, scene)) told.push_back("warning: " + std::move(gap));

@@ -9,7 +9,6 @@
 #include <limits>
 
 #include "checks.hpp"
-#include "grid/space.hpp"
 #include "io/checkpoint.hpp"
 #include "littoral/coupler/job.hpp"
 #include "littoral/error.hpp"
@@ -82,6 +81,9 @@ void Solver<D>::run(Companion<D>& companion) {
                    layout.whole.size(), ranks_.size(), omp_get_max_threads(),
                    companion.description().c_str()));
   for (const std::string& note : grid_notes_) log_.info(note);
+  if (const FreeSurface<D>* surface = stepper_.surface(); surface != nullptr && !restarted_)
+    for (const std::string& note : SurfaceWarnings::of_start(*surface, scene_.fluid.sound_speed))
+      log_.info(note);
   for (const std::string& warning : support::scene_warnings(scene_)) log_.warn(warning);
   if (!restarted_) output_->first(stepper_, companion.waited());
 
@@ -134,6 +136,7 @@ coupler::Proposal Solver<D>::propose() const {
     double rate = 0.0;
     for (std::size_t b = 0; b < stepper_.blocks().size(); ++b)
       rate = std::max(rate, convective_rate<D>(stepper_.blocks()[b], stepper_.state()[b], least));
+    if (const FreeSurface<D>* surface = stepper_.surface()) rate = std::max(rate, surface->rate());
     mine.dt_stable = *config_.time.cfl / ranks_.largest(rate);
   }
   // a window whose length the particles decide: as long as the last one
@@ -158,7 +161,8 @@ void Solver<D>::report(const StepReport& outcome) {
     for (const double norm : outcome.norms) history += format(" %.3e", norm);
     log_.info(history);
   }
-  if (const FreeSurface<D>* surface = stepper_.surface()) warn_of_thin_water(surface->thin_water());
+  if (const FreeSurface<D>* surface = stepper_.surface())
+    for (const std::string& warning : surface_warnings_.after(stepper_.steps(), *surface)) log_.warn(warning);
   if (outcome.converged) return;
   // the first few and then every hundredth: a run that never converges should not bury its log
   if (++unconverged_ <= 3 || unconverged_ % 100 == 0)
@@ -166,19 +170,6 @@ void Solver<D>::report(const StepReport& outcome) {
         format("step %ld: the inner iteration stopped after %d cycles at a drop of %.1e, not %.1e (%ld "
                "such steps so far); a smaller step or more dual_time.max_cycles helps",
                stepper_.steps(), outcome.cycles, outcome.drop(), config_.dual_time.drop, unconverged_));
-}
-
-/// Once, and again whenever there is four times as much.
-template <int D>
-void Solver<D>::warn_of_thin_water(const ThinWater<D>& thin) {
-  if (thin.cells <= 4.0 * thin_water_told_) return;
-  thin_water_told_ = thin.cells;
-  const coupler::Vec3 x = vector_in_space<D>(thin.place);
-  log_.warn(format(
-      "step %ld: %.0f cells of water are threads, sheets or drops no thicker than a cell, as at (%.4g, %.4g, "
-      "%.4g) m: the level set carries them, but cannot be trusted there; finer cells, or particles, resolve "
-      "them (column thin_water_cells)",
-      stepper_.steps(), thin.cells, x[0], x[1], x[2]));
 }
 
 template <int D>
@@ -219,6 +210,8 @@ void Solver<D>::write_summary(const Companion<D>& companion, const std::string& 
                    {"digest", scene_.digest},
                    {"companion", companion.description()},
                    {"stopped because", reason}};
+  if (const FreeSurface<D>* surface = stepper_.surface())
+    summary.results["volume_error"] = surface->budget().error / surface->budget().volume;
   if (unconverged_ > 0)
     summary.warnings.push_back(
         format("%ld of %ld steps did not reach the inner tolerance", unconverged_, steps_));

@@ -7,6 +7,7 @@
 #include "config.hpp"
 #include "dual_time/stepper.hpp"
 #include "io/output.hpp"
+#include "io/surface_warnings.hpp"
 #include "littoral/support/log.hpp"
 #include "littoral/support/summary.hpp"
 #include "littoral/support/timers.hpp"
@@ -36,7 +37,6 @@ class Solver {
   coupler::Proposal propose() const;
   double cells() const;  // of all ranks
   void report(const StepReport& report);
-  void warn_of_thin_water(const ThinWater<D>& thin);
   void write_summary(const Companion<D>& companion, const std::string& reason);
 
   FvConfig config_;
@@ -55,7 +55,7 @@ class Solver {
   double last_checkpoint_ = 0.0;  // [s]
   double begin_ = 0.0;            // [s] wall clock
   long cycles_ = 0, unconverged_ = 0, steps_ = 0;
-  double thin_water_told_ = 0.0;  // cells in the last warning
+  SurfaceWarnings surface_warnings_;
 };
 
 }  // namespace littoral::fv

@@ -212,13 +212,22 @@ StepReport Stepper<D>::advance(double dt, const std::vector<Imposed<D>>& imposed
   try {
     report = inner_->solve(problem, tolerance_, level_[0]);
   } catch (const StabilityError& lost) {
-    check("dt was " + number(dt) + " s; " + k_advice);  // names place and state where they show it
-    throw StabilityError(std::string(lost.what()) + "; dt was " + number(dt) + " s");
+    check(size_of_step(dt) + "; " + k_advice);  // names place and state where they show it
+    throw StabilityError(std::string(lost.what()) + "; " + size_of_step(dt));
   }
   if (surface_)
     problem.timed(StepPhases::surface, [&] { surface_->end(blocks_, exchange_, equations_, level_[0]); });
-  check("dt was " + number(dt) + " s; " + k_advice);
+  check(size_of_step(dt) + "; " + k_advice);
   return report;
+}
+
+/// For a message: a step that lets the surface pass several cells is what most often ends a run.
+template <int D>
+std::string Stepper<D>::size_of_step(double dt) const {
+  std::string text = "dt was " + number(dt) + " s";
+  if (surface_)
+    text += ", " + number(dt * surface_->rate()) + " surface Courant numbers with the velocities before it";
+  return text;
 }
 
 template <int D>
@@ -281,7 +290,7 @@ void Stepper<D>::recall(const Memory& memory) {
   steps_ = memory.steps;
   time_ = memory.time;
   for (auto& block : blocks_) evaluate_windows(block, equations_, time_);
-  if (surface_) surface_->recall(blocks_, exchange_, memory.phi, memory.volume);
+  if (surface_) surface_->recall(blocks_, exchange_, memory.surface);
 }
 
 template <int D>

@@ -99,12 +99,11 @@ class Stepper {
     int known = 0;
     long steps = 0;
     double time = 0.0;
-    typename FreeSurface<D>::Memory phi{};  // empty without a free surface
-    VolumeBudget volume{};
+    typename FreeSurface<D>::Memory surface{};  // empty without a free surface
   };
   Memory memory() const {
     Memory memory{level_, dt_, known_, steps_, time_};
-    if (surface_) memory.phi = surface_->memory(), memory.volume = surface_->budget();
+    if (surface_) memory.surface = surface_->memory();
     return memory;
   }
   void recall(const Memory& memory);
@@ -117,6 +116,7 @@ class Stepper {
   bool damps_surface() const {
     return std::any_of(sponges_.begin(), sponges_.end(), [](const Sponge<D>& s) { return bool(s.surface); });
   }
+  std::string size_of_step(double dt) const;
   void check(const std::string& advice) const;  // comm collective
   void check_own(const std::string& advice) const;
 

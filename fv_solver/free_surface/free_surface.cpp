@@ -43,6 +43,7 @@ void FreeSurface<D>::initialise(std::vector<Block<D>>& blocks, const Exchange<D>
   past_ = set_.phi;
   start_ = {set_.phi, past_};
   set_masks(blocks, exchange);
+  start_pressure_ = settle_start_pressure<D>(blocks, exchange, equations.fluid, set_.band, set_.phi, q);
   continue_all(blocks, exchange, equations.fluid, q);
   const double steady = BackwardDifference::steady().dt;
   budget_ = {exchange.ranks().sum(water_volume<D>(blocks, set_.phi)),
@@ -119,6 +120,7 @@ void FreeSurface<D>::end(std::vector<Block<D>>& blocks, const Exchange<D>& excha
   exchange.ranks().sum(water);
   budget_.add(water[0], water[1], scheme_.dt);
   thin_water_ = find_thin_water<D>(blocks, exchange, set_.band, wet_);
+  rate_ = exchange.ranks().largest(surface_rate<D>(blocks, set_.band, set_.surface_velocity));
 }
 
 /// Air without a velocity of its own holds none: extrapolated in time step by step it would run away, and a
@@ -148,11 +150,12 @@ void FreeSurface<D>::restore(std::vector<Block<D>>& blocks, const Exchange<D>& e
 }
 
 template <int D>
-void FreeSurface<D>::recall(std::vector<Block<D>>& blocks, const Exchange<D>& exchange, const Memory& memory,
-                            const VolumeBudget& budget) {
-  budget_ = budget;
-  set_.phi = memory[0];
-  past_ = memory[1];
+void FreeSurface<D>::recall(std::vector<Block<D>>& blocks, const Exchange<D>& exchange,
+                            const Memory& memory) {
+  budget_ = memory.budget;
+  rate_ = memory.rate;
+  set_.phi = memory.phi[0];
+  past_ = memory.phi[1];
   set_masks(blocks, exchange);
 }
 

@@ -6,6 +6,7 @@
 #include "free_surface/cut_faces.hpp"
 #include "free_surface/imposed.hpp"
 #include "free_surface/inflow.hpp"
+#include "free_surface/start_pressure.hpp"
 #include "free_surface/thin_water.hpp"
 #include "level_set/level_set.hpp"
 #include "physics/equations.hpp"
@@ -25,7 +26,8 @@ class FreeSurface {
  public:
   explicit FreeSurface(const LevelSetOptions& options = {}) { set_.options = options; }
 
-  /// The surface at time t from a function < 0 in water; q's u and p continued into the air.
+  /// The surface at time t from a function < 0 in water; q's u and p continued into the air, p in the water
+  /// replaced where it cannot be a first guess (start_pressure()).
   /// throws ConfigError where the function is not finite
   void initialise(std::vector<Block<D>>& blocks, const Exchange<D>& exchange, const Equations<D>& equations,
                   const Prescribed& surface, double t, std::vector<State<D>>& q);
@@ -52,12 +54,10 @@ class FreeSurface {
   const std::vector<Field>& phi() const { return set_.phi; }
   const std::vector<Field>& phi_before() const { return past_; }  // one step ago
   LevelSet<D>& level_set() { return set_; }
-  /// The surface's Courant number of a unit step [1/s].
-  double rate(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange) const {
-    return set_.surface_velocity.empty()
-               ? 0.0
-               : exchange.ranks().largest(surface_rate<D>(blocks, set_.band, set_.surface_velocity));
-  }
+  /// The surface's Courant number of a unit step, as the last step left it [1/s].
+  double rate() const { return rate_; }
+  /// What initialise found of the pressure it was given.
+  const StartPressure& start_pressure() const { return start_pressure_; }
   /// Of the water in all solved cells, as the last step left it.
   const VolumeBudget& budget() const { return budget_; }
   /// Where the level set is not to be trusted, after the last step.
@@ -65,11 +65,14 @@ class FreeSurface {
   /// Counts the changes of which cells are water.
   long version() const { return version_; }
 
-  /// What a continuation needs: phi^n and phi^n-1.
-  using Memory = std::array<std::vector<Field>, 2>;
-  Memory memory() const { return {set_.phi, past_}; }
-  void recall(std::vector<Block<D>>& blocks, const Exchange<D>& exchange, const Memory& memory,
-              const VolumeBudget& budget);
+  /// What a continuation needs.
+  struct Memory {
+    std::array<std::vector<Field>, 2> phi;  // [m] phi^n, phi^n-1
+    VolumeBudget budget;
+    double rate = 0.0;  // [1/s]
+  };
+  Memory memory() const { return {{set_.phi, past_}, budget_, rate_}; }
+  void recall(std::vector<Block<D>>& blocks, const Exchange<D>& exchange, const Memory& memory);
 
  private:
   /// Evaluations of a step in which cells may still turn to water or air, and stencils may be switched. After
@@ -89,12 +92,14 @@ class FreeSurface {
                          std::vector<State<D>>& q) const;
 
   LevelSet<D> set_;
-  std::vector<Field> past_;  // [m] phi^n-1, cells new in the band completed
-  Memory start_;             // [m] phi^n, phi^n-1 of the step just done or under way
+  std::vector<Field> past_;                  // [m] phi^n-1, cells new in the band completed
+  std::array<std::vector<Field>, 2> start_;  // [m] phi^n, phi^n-1 of the step just done or under way
   BackwardDifference scheme_;
   VolumeBudget budget_, budget_before_;  // now, and before the last begin
   std::vector<WetMask> wet_;             // [block]
   ThinWater<D> thin_water_;
+  StartPressure start_pressure_;
+  double rate_ = 0.0;                               // [1/s]
   std::vector<CutFaces<D>> cut_;                    // [block]
   std::vector<std::vector<std::ptrdiff_t>> drops_;  // [block] cells of water alone
   long version_ = 0;

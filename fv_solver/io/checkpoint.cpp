@@ -85,11 +85,12 @@ void write_checkpoint(const std::string& path, const Stepper<D>& stepper, std::i
     put(group(level), "p", [&](std::size_t b) -> const Field& { return states[b].p; });
     for (std::size_t k = 0; k < D; ++k)
       put(group(level), component(k), [&](std::size_t b) -> const Field& { return states[b].u[k]; });
-    if (stepper.surface() != nullptr && level < memory.phi.size())
-      put(group(level), "phi", [&](std::size_t b) -> const Field& { return memory.phi[level][b]; });
+    if (stepper.surface() != nullptr && level < memory.surface.phi.size())
+      put(group(level), "phi", [&](std::size_t b) -> const Field& { return memory.surface.phi[level][b]; });
   }
   if (stepper.surface() != nullptr)
-    file.put("water", std::vector<double>{memory.volume.volume, memory.volume.inflow, memory.volume.error});
+    file.put("water", std::vector<double>{memory.surface.budget.volume, memory.surface.budget.inflow,
+                                          memory.surface.budget.error, memory.surface.rate});
   if (more) more(file);
   file.commit();
 }
@@ -152,9 +153,9 @@ std::int64_t read_checkpoint(const std::string& path, Stepper<D>& stepper, const
       q.p = read(level, "p");
       for (std::size_t k = 0; k < D; ++k) q.u[k] = read(level, component(k));
     }
-    for (std::size_t level = 0; level < memory.phi.size() && stepper.surface() != nullptr; ++level) {
-      memory.phi[level].resize(mine.size());
-      memory.phi[level][i] = read(level, "phi");
+    for (std::size_t level = 0; level < memory.surface.phi.size() && stepper.surface() != nullptr; ++level) {
+      memory.surface.phi[level].resize(mine.size());
+      memory.surface.phi[level][i] = read(level, "phi");
     }
   }
   other_overlap = layout.owners.ranks.sum(other_overlap);
@@ -163,8 +164,9 @@ std::int64_t read_checkpoint(const std::string& path, Stepper<D>& stepper, const
                       std::to_string(static_cast<std::int64_t>(other_overlap)) +
                       " cells are interpolated in one and not in the other; restart with the same `overset`");
   if (stepper.surface() != nullptr) {
-    const std::vector<double> water = some("water", 3);
-    memory.volume = {water[0], water[1], water[2]};
+    const std::vector<double> water = some("water", 4);
+    memory.surface.budget = {water[0], water[1], water[2]};
+    memory.surface.rate = water[3];
   }
   stepper.recall(memory);
   return file.integer("window");

@@ -36,7 +36,7 @@ bool active(std::size_t a) {
 }
 
 template <int D>
-ElevationLine<D> elevation_line(const GaugeConfig& gauge, const Stepper<D>& stepper) {
+std::vector<ElevationLine<D>> elevation_lines(const GaugeConfig& gauge, const Stepper<D>& stepper) {
   if (stepper.surface() == nullptr)
     throw ConfigError(
         "gauge '" + gauge.name +
@@ -45,8 +45,13 @@ ElevationLine<D> elevation_line(const GaugeConfig& gauge, const Stepper<D>& step
   coupler::Vec3 at = gauge.at;
   if (D == 2) at[1] = 0.0;
   const coupler::Vec3 up = vector_in_space<D>(against_gravity(stepper.equations().fluid));
-  ElevationLine<D> line(stepper.blocks(), at, up);
-  if (stepper.exchange().ranks().any(line.found())) return line;
+  std::vector<ElevationLine<D>> lines;
+  bool found = false;
+  for (const Block<D>& block : stepper.blocks()) {
+    lines.emplace_back(block, at, up);
+    found = found || lines.back().found();
+  }
+  if (stepper.exchange().ranks().any(found)) return lines;
   char text[96];
   std::snprintf(text, sizeof text, "(%g, %g, %g) m", at[0], at[1], at[2]);
   throw ConfigError("gauge '" + gauge.name + "': the line against gravity through " + text +
@@ -65,7 +70,7 @@ Gauges<D>::Gauges(const std::vector<GaugeConfig>& gauges, const Stepper<D>& step
   for (std::size_t g = 0; g < gauges_.size(); ++g) {
     const GaugeConfig& gauge = gauges_[g];
     if (gauge.kind == GaugeConfig::Kind::elevation) {
-      lines_.push_back(elevation_line(gauge, stepper));
+      lines_.push_back(elevation_lines(gauge, stepper));
       continue;
     }
     if (gauge.kind != GaugeConfig::Kind::point) {
@@ -175,10 +180,15 @@ std::vector<double> Gauges<D>::values(const Stepper<D>& stepper) const {
       values.push_back(p);
       values.insert(values.end(), u.begin(), u.end());
     } else if (gauge.kind == GaugeConfig::Kind::elevation) {
-      const double here = lines_[line++].height(stepper.surface()->phi());
-      constexpr double k_none = -std::numeric_limits<double>::infinity();
-      const double highest = ranks.largest(std::isnan(here) ? k_none : here);
-      values.push_back(highest == k_none ? std::numeric_limits<double>::quiet_NaN() : highest);
+      const Layout<D>& layout = stepper.exchange().layout();
+      const std::vector<std::size_t> mine = layout.owners.mine();
+      std::vector<Elevation> readings;
+      for (std::size_t b = 0; b < lines_[line].size(); ++b) {
+        readings.push_back(lines_[line][b].read(stepper.surface()->phi()[b]));
+        readings.back().component = static_cast<double>(layout.component[mine[b]]);
+      }
+      ++line;
+      values.push_back(highest(ranks.gather(readings)).height);
     } else if (gauge.kind == GaugeConfig::Kind::y_plus) {
       const WallUnits units =
           wall_units<D>(stepper.blocks(), stepper.equations(), stepper.state(), gauge.wall, ranks);

@@ -34,8 +34,8 @@ class Gauges {
   Place find(const Stepper<D>& stepper, const Searches& searches, coupler::Vec3 at, double& worth) const;
 
   std::vector<GaugeConfig> gauges_;
-  std::vector<Place> places_;            // one a gauge; empty for forces, and where another rank reads it
-  std::vector<ElevationLine<D>> lines_;  // of the elevation gauges, in their order; their parts on this rank
+  std::vector<Place> places_;  // one a gauge; empty for forces, and where another rank reads it
+  std::vector<std::vector<ElevationLine<D>>> lines_;  // [elevation gauge, in their order][block of this rank]
 };
 
 }  // namespace littoral::fv

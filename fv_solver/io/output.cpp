@@ -106,7 +106,7 @@ void Output<D>::row(const Stepper<D>& stepper, const StepReport& report, double 
   if (const FreeSurface<D>* surface = stepper.surface()) {
     values.push_back(surface->budget().volume);
     values.push_back(surface->budget().error);
-    values.push_back(surface->rate(stepper.blocks(), stepper.exchange()) * stepper.last_dt());
+    values.push_back(surface->rate() * stepper.last_dt());
     values.push_back(surface->thin_water().cells);
   }
   for (const auto& wall : walls_) {

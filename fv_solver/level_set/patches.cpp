@@ -119,22 +119,31 @@ bool nearest_crossing(const Block<D>& block, const Field& phi, std::ptrdiff_t c,
   return least < std::numeric_limits<double>::infinity();
 }
 
-/// grad phi from the cells of layer 0 alone, which nothing but the motion changes. false: not enough of them
+/// grad phi from the cells of layer 0 alone, which nothing but the motion changes. false: not enough of them,
+/// or phi falls from the cell on both sides alike (a drop of one cell): what is left of it is round-off, and
+/// no direction
 template <int D>
 bool frozen_gradient(const Block<D>& block, const Band<D>& band, const Field& phi, std::size_t b,
                      std::ptrdiff_t c, SpaceVector<D>& gradient) {
   SpaceMatrix<D> steps;
   SpaceVector<D> change;
+  double variation2 = 0.0;
+  const double here = phi[static_cast<std::size_t>(c)];
   for (std::size_t d = 0; d < D; ++d) {
     const std::ptrdiff_t s = block.extent.stride[d];
     const std::ptrdiff_t low = band.layer(b, c - s) == 0 ? c - s : c,
                          up = band.layer(b, c + s) == 0 ? c + s : c;
     if (low == up) return false;
     steps[d] = between(block, low, up);
-    change[d] = phi[static_cast<std::size_t>(up)] - phi[static_cast<std::size_t>(low)];
+    const double below = phi[static_cast<std::size_t>(low)], above = phi[static_cast<std::size_t>(up)];
+    change[d] = above - below;
+    const double variation = std::abs(above - here) + std::abs(here - below);
+    variation2 += variation * variation;
   }
+  constexpr double k_even = 1e-2;  // of what phi varies by: falling to both sides alike
+  if (!(dot(change, change) > k_even * k_even * variation2)) return false;
   gradient = times(inverse<D>(steps), change);
-  return finite<D>(gradient) && dot(gradient, gradient) > 0.0;
+  return finite<D>(gradient);
 }
 
 /// Whether a patch's normal is near that of the cells at the surface. Values of phi further out are made from

@@ -326,8 +326,8 @@ TEST(FreeSurfaceTest, StepsRepeatAndContinueToTheBit) {
   third.stepper.restore();
   const auto repeated = run(third.stepper);
   for (const auto* again : {&continued, &repeated}) {
-    EXPECT_EQ(again->phi[0], plain.phi[0]);
-    EXPECT_EQ(again->phi[1], plain.phi[1]);
+    EXPECT_EQ(again->surface.phi[0], plain.surface.phi[0]);
+    EXPECT_EQ(again->surface.phi[1], plain.surface.phi[1]);
     EXPECT_EQ(again->level[0][0].p, plain.level[0][0].p);
     EXPECT_EQ(again->level[0][0].u[0], plain.level[0][0].u[0]);
   }

@@ -320,6 +320,29 @@ TEST(LevelSetTransportTest, ForcedPhiReachesItsTarget) {  // (23)
   EXPECT_LT(march.error([](const SpaceVector<2>& x) { return x[1] - 0.53; }, 4), 1e-5);
 }
 
+/// phi bends between the centres: where a line begins must not show in where it finds the zero.
+TEST(ElevationTest, IsTheSameHoweverTheBlockIsCut) {
+  const auto of_block = [](int first, int last) {
+    Block<2> block = make_block<2>("part", {4, last - first}, {}, [=](const std::array<int, 2>& i) {
+      return std::array<double, 2>{0.25 * i[0], 0.1 * (first + i[1])};
+    });
+    Field phi(block.extent.size);
+    for (std::size_t c = 0; c < phi.size(); ++c) phi[c] = std::expm1(3.0 * (block.centre[1][c] - 0.6137));
+    return ElevationLine<2>(block, {0.4, 0.0, 0.0}, {0.0, 0.0, 1.0}).read(phi).height;
+  };
+  const double whole = of_block(0, 10);
+  EXPECT_NEAR(whole, 0.6137, 0.01);
+  for (const int first : {1, 2, 3, 4, 5}) EXPECT_NEAR(of_block(first, 9), whole, 1e-12) << first;
+}
+
+TEST(ElevationTest, OfTheUppermostGridThatSeesTheHighestSurface) {
+  EXPECT_EQ(highest({{0.51, 0.1, 0.0}, {0.50, 0.02, 2.0}, {0.49, 0.05, 1.0}}).height, 0.50);
+  EXPECT_EQ(highest({{0.51, 0.1, 0.0}, {0.2, 0.02, 2.0}}).height, 0.51);  // another surface
+  EXPECT_EQ(highest({{}, {0.3, 0.1, 0.0}, {}}).height, 0.3);
+  EXPECT_TRUE(std::isnan(highest({{}}).height));
+  EXPECT_TRUE(std::isnan(highest({}).height));
+}
+
 TYPED_TEST(LevelSetTest, ElevationOfATiltedPlaneAndOfTheUpperOfTwoSurfaces) {
   constexpr int D = TypeParam::value;
   std::array<std::vector<int>, D> cuts;
@@ -330,18 +353,23 @@ TYPED_TEST(LevelSetTest, ElevationOfATiltedPlaneAndOfTheUpperOfTwoSurfaces) {
   const auto plane = [](const SpaceVector<D>& x) { return 0.6 * (x[0] - 0.5) + 0.8 * (x[D - 1] - 0.47); };
   const March<D> tilted(grid.parts, plane);
   const coupler::Vec3 up = {0.0, 0.0, 1.0};
+  const auto height = [&](const March<D>& march, double x) {
+    std::vector<Elevation> readings;
+    for (std::size_t b = 0; b < march.blocks.size(); ++b)
+      readings.push_back(ElevationLine<D>(march.blocks[b], {x, 0.4, 9.0}, up).read(march.surface.phi[b]));
+    return highest(readings).height;
+  };
   for (const double x : {0.07, 0.31, 0.5, 0.82})
-    EXPECT_NEAR(ElevationLine<D>(tilted.blocks, {x, 0.4, 9.0}, up).height(tilted.surface.phi),
-                0.47 - 0.75 * (x - 0.5), 1e-12);
+    EXPECT_NEAR(height(tilted, x), 0.47 - 0.75 * (x - 0.5), 1e-12);
   // a layer of air with water over it, and air again
   const March<D> layers(grid.parts, [](const SpaceVector<D>& x) {
     const double z = x[D - 1];
     return std::max(z - 0.83, std::min(z - 0.22, 0.52 - z));
   });
-  EXPECT_NEAR(ElevationLine<D>(layers.blocks, {0.4, 0.4, 0.0}, up).height(layers.surface.phi), 0.83, 1e-9);
+  EXPECT_NEAR(height(layers, 0.4), 0.83, 1e-9);
   const March<D> air(grid.parts, [](const SpaceVector<D>& x) { return x[0] + 9.0; });
-  EXPECT_TRUE(std::isnan(ElevationLine<D>(air.blocks, {0.4, 0.4, 0.0}, up).height(air.surface.phi)));
-  EXPECT_FALSE(ElevationLine<D>(air.blocks, {7.0, 0.4, 0.0}, up).found());
+  EXPECT_TRUE(std::isnan(height(air, 0.4)));
+  EXPECT_FALSE(ElevationLine<D>(air.blocks[0], {7.0, 0.4, 0.0}, up).found());
 }
 
 /// A surface through a turned, finer patch: distance and motion across the overlap.
