@@ -81,7 +81,7 @@ class FreeSurface {
   static constexpr int k_settling = 6;
 
   void set_masks(std::vector<Block<D>>& blocks, const Exchange<D>& exchange);
-  /// Sweeps of (7), (23); the residual before the last [m/s].
+  /// Sweeps of (7), (23); the residual before them [m/s].
   double move_phi(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange);
   void continue_flow(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange,
                      std::vector<State<D>>& q);

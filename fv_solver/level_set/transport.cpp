@@ -13,10 +13,14 @@ namespace {
 /// unlike, and the one of the smoother side counts (weighted as Jiang & Peng 2000, with two stencils): with
 /// fixed weights the fore side of a thread of water three cells wide went a third faster than its rear.
 struct UpwindDifference {
-  std::ptrdiff_t step;           // downwind
-  double ahead, own, near, far;  // weights of the cells from one downwind to two upwind
+  std::ptrdiff_t step = 0;  // downwind
+  double ahead = 0.0, own = 0.0, near = 0.0,
+         far = 0.0;  // weights of the cells from one downwind to two upwind
   double operator()(const double* f, std::ptrdiff_t c) const {
     return ahead * f[c + step] + own * f[c] + near * f[c - step] + far * f[c - 2 * step];
+  }
+  UpwindDifference times(double factor) const {
+    return {step, factor * ahead, factor * own, factor * near, factor * far};
   }
 };
 
@@ -44,21 +48,21 @@ SpaceVector<D> velocity(const VectorField<D>& u, std::ptrdiff_t c) {
   return v;
 }
 
-/// u . grad phi
+/// u . grad phi at a cell, as differences of phi along the grid's directions; `rate`: of index_velocity
 template <int D>
-double advection(const Block<D>& block, const double* phi, const SpaceVector<D>& u,
-                 const std::array<double, D>& rate, std::ptrdiff_t c) {
+std::array<UpwindDifference, D> advection(const Block<D>& block, const double* phi, const SpaceVector<D>& u,
+                                          const std::array<double, D>& rate, std::ptrdiff_t c) {
   SpaceMatrix<D> dx;  // [component][direction]
-  SpaceVector<D> change;
+  std::array<UpwindDifference, D> difference;
   for (std::size_t d = 0; d < D; ++d) {
     const std::ptrdiff_t s = block.extent.stride[d];
     const SpaceVector<D> across = between(block, c - s, c + s);
-    const UpwindDifference difference =
-        upwind_difference(phi, c, s, rate[d] > 0.0, 0.25 * dot(across, across));
-    change[d] = difference(phi, c);
-    for (std::size_t k = 0; k < D; ++k) dx[k][d] = difference(block.centre[k].data(), c);
+    difference[d] = upwind_difference(phi, c, s, rate[d] > 0.0, 0.25 * dot(across, across));
+    for (std::size_t k = 0; k < D; ++k) dx[k][d] = difference[d](block.centre[k].data(), c);
   }
-  return dot(times(inverse<D>(dx), u), change);
+  const SpaceVector<D> along = times(inverse<D>(dx), u);
+  for (std::size_t d = 0; d < D; ++d) difference[d] = difference[d].times(along[d]);
+  return difference;
 }
 
 bool moves(CellStatus status) { return status == CellStatus::computed || status == CellStatus::forced; }
@@ -77,29 +81,51 @@ std::array<double, D> index_velocity(const Block<D>& block, const VectorField<D>
   return rate;
 }
 
-/// R of the at-th cell of the band [m/s] and, in `diagonal`, what a sweep divides by [1/s].
+/// The equation of phi in one cell, its weights of upwinding those of one phi: R(phi) = constant +
+/// (a0 + rate) phi + sum of the differences.
 template <int D>
-double cell_residual(const Block<D>& block, std::size_t b, const SurfaceStep<D>& step,
-                     const VectorField<D>& u_s, const double* phi, std::ptrdiff_t at, double& diagonal) {
+struct CellEquation {
+  bool moves = false;
+  double constant = 0.0;  // [m/s]
+  double own = 0.0;       // [1/s]
+  double diagonal = 1.0;  // [1/s] what a sweep divides by
+  std::array<UpwindDifference, D> advection{};
+
+  double residual(const double* phi, std::ptrdiff_t c) const {
+    double r = constant + own * phi[c];
+    for (const UpwindDifference& difference : advection) r += difference(phi, c);
+    return r;
+  }
+};
+
+/// Of the at-th cell of the band.
+template <int D>
+CellEquation<D> cell_equation(const Block<D>& block, std::size_t b, const SurfaceStep<D>& step,
+                              const VectorField<D>& u_s, const double* phi, std::ptrdiff_t at) {
+  CellEquation<D> equation;
   const std::ptrdiff_t c = step.band.cells(b)[at];
   const auto i = static_cast<std::size_t>(c);
+  equation.moves = moves(block.status[i]);
+  if (!equation.moves) return equation;
   const SpaceVector<D> u = velocity<D>(u_s, c);
   const std::array<double, D> rate = index_velocity<D>(block, u_s, c);
-  double r = step.time.a0 * phi[c] + step.time.a1 * step.phi_n[b][i];
-  if (step.time.a2 != 0.0) r += step.time.a2 * step.phi_nm1[b][i];
+  equation.own = step.time.a0;
+  equation.constant = step.time.a1 * step.phi_n[b][i];
+  if (step.time.a2 != 0.0) equation.constant += step.time.a2 * step.phi_nm1[b][i];
   constexpr double k_diagonal = 1.5;  // per unit of CFL: the smallest with which all waves decay at any CFL
-  diagonal = step.time.a0;
-  for (const double x : rate) diagonal += k_diagonal * std::abs(x);
+  equation.diagonal = step.time.a0;
+  for (const double x : rate) equation.diagonal += k_diagonal * std::abs(x);
   if (step.band.layer(b, c) + 2 < step.band.layers())
-    r += advection<D>(block, phi, u, rate, c);
+    equation.advection = advection<D>(block, phi, u, rate, c);
   else if (step.patches.has(b, c))
-    r += dot(u, step.patches.foot(b, at).normal);
+    equation.constant += dot(u, step.patches.foot(b, at).normal);
   if (!step.forcing.empty() && step.forcing[b].active()) {
     const SurfaceForcing& f = step.forcing[b];
-    r += f.rate[i] * (phi[c] - f.target[i]);
-    diagonal += f.rate[i];
+    equation.own += f.rate[i];
+    equation.constant -= f.rate[i] * f.target[i];
+    equation.diagonal += f.rate[i];
   }
-  return r;
+  return equation;
 }
 
 }  // namespace
@@ -107,27 +133,31 @@ double cell_residual(const Block<D>& block, std::size_t b, const SurfaceStep<D>&
 template <int D>
 double transport(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange, const SurfaceStep<D>& step,
                  const std::vector<VectorField<D>>& surface_velocity, int sweeps, std::vector<Field>& phi) {
-  double largest = 0.0;
+  double first = 0.0;
+  std::vector<std::vector<CellEquation<D>>> equations(blocks.size());
   std::vector<double> change;
   for (int sweep = 0; sweep < sweeps; ++sweep) {
-    largest = 0.0;
     for (std::size_t b = 0; b < blocks.size(); ++b) {
       const auto cells = step.band.cells(b);
+      equations[b].resize(static_cast<std::size_t>(cells.size()));
       change.assign(static_cast<std::size_t>(cells.size()), 0.0);
       double* f = phi[b].data();
+      double largest = 0.0;
 #pragma omp parallel for schedule(static) if (cells.size() > k_cells_for_threads) reduction(max : largest)
       for (std::ptrdiff_t i = 0; i < cells.size(); ++i) {
-        if (!moves(blocks[b].status[static_cast<std::size_t>(cells[i])])) continue;
-        double diagonal = 0.0;
-        const double r = cell_residual<D>(blocks[b], b, step, surface_velocity[b], f, i, diagonal);
+        CellEquation<D>& equation = equations[b][static_cast<std::size_t>(i)];
+        if (sweep == 0) equation = cell_equation<D>(blocks[b], b, step, surface_velocity[b], f, i);
+        if (!equation.moves) continue;
+        const double r = equation.residual(f, cells[i]);
         largest = std::max(largest, std::abs(r));
-        change[static_cast<std::size_t>(i)] = r / diagonal;
+        change[static_cast<std::size_t>(i)] = r / equation.diagonal;
       }
       for (std::ptrdiff_t i = 0; i < cells.size(); ++i) f[cells[i]] -= change[static_cast<std::size_t>(i)];
+      if (sweep == 0) first = std::max(first, largest);
     }
     exchange.scalar(blocks, phi, ScalarGhosts::level_set);
   }
-  return largest;
+  return first;
 }
 
 template <int D>

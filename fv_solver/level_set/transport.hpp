@@ -33,8 +33,9 @@ struct SurfaceStep {
 
 /// Point-implicit sweeps phi -= R / (a0 + rate + 3/2 sum |U_d|), U cells a second. All cells are updated
 /// at once, so their order does not matter. A sweep leaves .26 of the error at a surface CFL of .3, .57 at 1,
-/// .94 at 5. in/out phi, ghosts current before and after; comm exchange of phi once a sweep returns the
-/// largest residual before the last sweep [m/s], of these blocks
+/// .94 at 5. The weights of upwinding, which depend on phi at its ridges, are those of the phi given.
+/// in/out phi, ghosts current before and after; comm exchange of phi once a sweep
+/// returns the largest residual of the phi given [m/s], of these blocks
 template <int D>
 double transport(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange, const SurfaceStep<D>& step,
                  const std::vector<VectorField<D>>& surface_velocity, int sweeps, std::vector<Field>& phi);

@@ -1,7 +1,7 @@
 littoral_gtest(
   NAME fv_core_test
   PREFIX fv
-  SOURCES box_test.cpp checkpoint_test.cpp cut_test.cpp
+  SOURCES box_test.cpp checkpoint_test.cpp cut_test.cpp elevation_test.cpp
           find_joins_test.cpp
           flows_test.cpp
           free_surface_test.cpp
