@@ -98,9 +98,9 @@ void Config::bind(support::Binder& b) {
         .exclusive_min(0)
         .max(4)
         .doc(
-            "Reach of the lists beyond the kernel, at most: less where particles move little in a step, as "
-            "much as "
-            "makes lists and pairs together cheapest.");
+            "How far a particle may go before lists are made anew, at most: less where lists and pairs "
+            "together "
+            "cost least then.");
   });
   b.section("ranks", "A run on several MPI ranks.", [&] {
     b.key("load_drift", load_drift)
@@ -251,7 +251,7 @@ Numerics<D> numerics_of(const RunConfig& config) {
 template <int D>
 DomainBox<D> domain_of(const RunConfig& config) {
   const auto& [scene, sph] = config;
-  const double reach = numerics_of<D>(config).kernel_radius + sph.skin * sph.spacing;
+  const double reach = numerics_of<D>(config).kernel_radius + 2.0 * sph.skin * sph.spacing;
   DomainBox<D> box;
   std::string problems;
   for (std::size_t d = 0; d < D; ++d) {

@@ -29,8 +29,7 @@ Walls<D>::Walls(std::vector<Body> bodies, const Numerics<D>& numerics, const Dom
     : numerics_(numerics),
       box_(box),
       bodies_(std::move(bodies)),
-      // fluid lists may be half a skin old when these are made, and both may move by half a skin after
-      reach_(numerics.kernel_radius + 2.0 * numerics.skin),
+      most_reach_(numerics.kernel_radius + 2.5 * numerics.skin),
       sheets_(bodies_),
       dummies_(bodies_, box, lattice, numerics.kernel_radius),
       loads_(bodies_.size()) {
@@ -39,7 +38,7 @@ Walls<D>::Walls(std::vector<Body> bodies, const Numerics<D>& numerics, const Dom
     any_sticks_ = any_sticks_ || sticks_.back();
     any_moves_ = any_moves_ || body.moves();
   }
-  dummies_.place(bodies_, reach_);
+  dummies_.place(bodies_, most_reach_);
   at_step_ = states_of(bodies_);
 }
 
@@ -82,9 +81,12 @@ bool Walls<D>::outdated() const {
 }
 
 template <int D>
-void Walls<D>::build(const Particles<D>& particles) {
-  if (any_moves_) dummies_.place(bodies_, reach_);
-  list_.build(particles, dummies_, bodies_, sheets_, reach_);
+void Walls<D>::build(const Particles<D>& particles, double way) {
+  if (any_moves_) dummies_.place(bodies_, most_reach_);
+  // Where bodies move these are made anew besides, when particles may already be at one end of their way, and
+  // live until a body has moved by half a skin.
+  const double further = any_moves_ ? 2.0 * way + 0.5 * numerics_.skin : way;
+  list_.build(particles, dummies_, bodies_, sheets_, numerics_.kernel_radius + further);
   if (numerics_.wall_states == WallStates::extrapolated) states_.build(list_, dummies_);
   at_build_ = states_of(bodies_);
   built_ = true;

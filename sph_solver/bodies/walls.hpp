@@ -31,7 +31,8 @@ class Walls {
   void move_to(double t);
   /// True if a body has moved by more than half the skin since build().
   bool outdated() const;
-  void build(const Particles<D>& particles);
+  /// way [m]: that no particle goes beyond while the particles' lists live
+  void build(const Particles<D>& particles, double way);
   /// Particles on different sides of a sheet are no neighbours. comm: local
   void part(const Particles<D>& particles, NeighborList<D>& neighbors) const {
     if (!sheets_.none()) sheets_.part(bodies_, box_, particles, neighbors);
@@ -94,7 +95,7 @@ class Walls {
   std::vector<char> sticks_;
   bool any_moves_ = false, any_sticks_ = false;
   double time_ = std::numeric_limits<double>::quiet_NaN();  // [s] for which bodies and dummies stand
-  double reach_;                                            // [m]
+  double most_reach_;                                       // of the lists [m]
   Sheets<D> sheets_;
   Dummies<D> dummies_;
   WallList<D> list_;

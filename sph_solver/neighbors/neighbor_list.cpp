@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "neighbors/append_within.hpp"
-
 namespace littoral::sph {
 namespace {
 
@@ -29,44 +27,66 @@ double NeighborList<D>::least_cell_side() const {
 }
 
 template <int D>
-void NeighborList<D>::build(const Particles<D>& particles) {
+void NeighborList<D>::build(const Particles<D>& particles, double time) {
   grid_.bin(particles.x, particles.size(), least_cell_side());
-  build(particles, grid_.side());
+  build(particles, time, grid_.side());
 }
 
 template <int D>
-void NeighborList<D>::build(const Particles<D>& particles, double cell_side) {
+void NeighborList<D>::build(const Particles<D>& particles, double time, double cell_side) {
   const std::size_t n_all = particles.size();
   const std::size_t n = particles.n_owned;
   revision_ = particles.revision;
   built_ = true;
+  time_ = time;
   grid_.bin_exactly(particles.x, n_all, cell_side);
   grid_.sort_cells(particles.x, particles.id);
   const auto& order = grid_.order();
-  std::array<std::vector<double>, D> x_sorted;
+  Paths<D> paths;
   for (std::size_t d = 0; d < D; ++d) {
-    x_sorted[d].resize(n_all);
-    const auto count = static_cast<std::ptrdiff_t>(n_all);
-    const double* from = particles.x[d].data();
-    double* to = x_sorted[d].data();
-#pragma omp parallel for schedule(static)
-    for (std::ptrdiff_t k = 0; k < count; ++k) to[k] = from[order[static_cast<std::size_t>(k)]];
+    paths.from[d].resize(n_all);
+    paths.way[d].resize(n_all);
     x_at_build_[d].assign(particles.x[d].begin(), particles.x[d].begin() + static_cast<std::ptrdiff_t>(n));
+    u_at_build_[d].resize(n);
+  }
+  const auto count = static_cast<std::ptrdiff_t>(n_all);
+#pragma omp parallel for schedule(static)
+  for (std::ptrdiff_t row = 0; row < count; ++row) {
+    const auto k = static_cast<std::size_t>(row), j = static_cast<std::size_t>(order[k]);
+    const auto u = foreseen_velocity(particles, j);
+    for (std::size_t d = 0; d < D; ++d) {
+      paths.from[d][k] = particles.x[d][j];
+      paths.way[d][k] = outlook_.ahead * u[d];
+      if (j < n) u_at_build_[d][j] = u[d];
+    }
   }
 
   start_.assign(n + 1, 0);
   std::size_t room = list_.capacity() / static_cast<std::size_t>(omp_get_max_threads());
-  for (std::size_t needed = fill(particles, x_sorted, room); needed > room;
-       needed = fill(particles, x_sorted, room))
+  for (std::size_t needed = fill(particles, paths, room); needed > room;
+       needed = fill(particles, paths, room))
     room = needed + needed / k_spare;
 }
 
+/// Nobody is taken for faster than the fastest foreseen: the search reaches as far.
 template <int D>
-std::size_t NeighborList<D>::fill(const Particles<D>& particles,
-                                  const std::array<std::vector<double>, D>& x_sorted, std::size_t room) {
+std::array<double, D> NeighborList<D>::foreseen_velocity(const Particles<D>& particles, std::size_t i) const {
+  std::array<double, D> u;
+  double speed2 = 0.0;
+  for (std::size_t d = 0; d < D; ++d) {
+    u[d] = particles.u[d][i];
+    speed2 += u[d] * u[d];
+  }
+  if (speed2 > outlook_.fastest * outlook_.fastest)
+    for (double& component : u) component *= outlook_.fastest / std::sqrt(speed2);
+  return u;
+}
+
+template <int D>
+std::size_t NeighborList<D>::fill(const Particles<D>& particles, const Paths<D>& paths, std::size_t room) {
   const std::size_t n = particles.n_owned;
   const auto most_threads = static_cast<std::size_t>(omp_get_max_threads());
-  const double reach_squared = reach() * reach();
+  const double near = kernel_radius_ + 2.0 * outlook_.stray, farthest = outlook_.ahead * outlook_.fastest;
   const std::int32_t* order = grid_.order().data();
   std::vector<std::size_t> filled(most_threads, 0), wanted(most_threads, 0), first(most_threads + 1, n);
   list_.resize(room * most_threads);
@@ -80,18 +100,24 @@ std::size_t NeighborList<D>::fill(const Particles<D>& particles,
     std::vector<std::int32_t> too_long;  // for rows that find no room: they are counted only
     std::size_t used = 0, most_candidates = 0;
     for (std::size_t i = begin; i < end; ++i) {
-      std::array<double, D> x;
-      for (std::size_t d = 0; d < D; ++d) x[d] = particles.x[d][i];
+      std::array<double, D> x, way;
+      double way2 = 0.0;
+      for (std::size_t d = 0; d < D; ++d) {
+        x[d] = particles.x[d][i];
+        way[d] = outlook_.ahead * u_at_build_[d][i];
+        way2 += way[d] * way[d];
+      }
+      const double radius = near + std::sqrt(way2) + farthest;
       std::size_t candidates = k_append_room;
-      grid_.for_each_range(x, reach(), [&](std::size_t b, std::size_t e) { candidates += e - b; });
+      grid_.for_each_range(x, radius, [&](std::size_t b, std::size_t e) { candidates += e - b; });
       most_candidates = std::max(most_candidates, candidates);
       const bool fits = used + candidates <= room;
       if (!fits) too_long.resize(std::max(too_long.size(), candidates));
       std::int32_t* const row = fits ? share + used : too_long.data();
       std::size_t length = 0;
-      grid_.for_each_range(x, reach(), [&](std::size_t b, std::size_t e) {
-        length += append_within<D>(x_sorted, order, x, reach_squared, static_cast<std::int32_t>(i), b, e,
-                                   row + length);
+      grid_.for_each_range(x, radius, [&](std::size_t b, std::size_t e) {
+        length +=
+            append_within<D>(paths, order, x, way, near, static_cast<std::int32_t>(i), b, e, row + length);
       });
       start_[i + 1] = length;
       used += length;
@@ -124,23 +150,27 @@ void NeighborList<D>::drop_marked() {
 }
 
 template <int D>
-bool NeighborList<D>::outdated(const Particles<D>& particles, double ahead) const {
+bool NeighborList<D>::outdated(const Particles<D>& particles, double time, double ahead) const {
   if (!built_ || revision_ != particles.revision) return true;
   const auto n = static_cast<std::ptrdiff_t>(particles.n_owned);
-  double most = 0.0, most_so_far = 0.0;
-#pragma omp parallel for schedule(static) reduction(max : most, most_so_far)
+  // of the way foreseen, which ends after outlook_.ahead
+  const auto gone = [this](double t) { return std::clamp(t - time_, 0.0, outlook_.ahead); };
+  const double until_now = gone(time), until_then = gone(time + ahead);
+  double most = 0.0, moved = 0.0;
+#pragma omp parallel for schedule(static) reduction(max : most, moved)
   for (std::ptrdiff_t i = 0; i < n; ++i) {
     const auto k = static_cast<std::size_t>(i);
     double now = 0.0, then = 0.0;
     for (std::size_t d = 0; d < D; ++d) {
-      const double moved = particles.x[d][k] - x_at_build_[d][k], going = moved + ahead * particles.u[d][k];
-      now += moved * moved;
-      then += going * going;
+      const double way = particles.x[d][k] - x_at_build_[d][k], u = u_at_build_[d][k],
+                   strayed = way - until_now * u, straying = way + ahead * particles.u[d][k] - until_then * u;
+      moved = std::max(moved, std::fabs(way));
+      now += strayed * strayed;
+      then += straying * straying;
     }
-    most_so_far = std::max(most_so_far, now);
-    most = std::max(most, then);
+    most = std::max({most, now, then});
   }
-  return most_so_far != 0.0 && !(most <= 0.25 * skin_ * skin_);
+  return moved != 0.0 && !(most <= outlook_.stray * outlook_.stray);
 }
 
 template class NeighborList<2>;

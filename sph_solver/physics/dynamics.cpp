@@ -6,7 +6,6 @@
 #include <sstream>
 
 #include "littoral/error.hpp"
-#include "neighbors/suitable_skin.hpp"
 #include "physics/riemann_fluxes.hpp"
 
 namespace littoral::sph {
@@ -51,8 +50,8 @@ double Dynamics<D>::stable_time_step() const {
 
 /// Lists are made anew on all ranks at once, when one of them needs it.
 template <int D>
-bool Dynamics<D>::outdated(const Particles<D>& particles, double ahead) {
-  const bool here = neighbors_.outdated(particles, ahead);
+bool Dynamics<D>::outdated(const Particles<D>& particles, double t, double ahead) {
+  const bool here = neighbors_.outdated(particles, t, ahead);
   return others_ != nullptr ? others_->any(here) : here;
 }
 
@@ -80,32 +79,39 @@ double cell_side(const Particles<D>& particles, double least, OtherRanks<D>* oth
 
 }  // namespace
 
-/// The skin for lists about to be made, from how far the fastest particle comes in a step.
+/// How far ahead the lists about to be made look: a step where particles come and go all the time.
 template <int D>
-void Dynamics<D>::choose_skin(const Particles<D>& particles, double dt) {
-  double fastest = 0.0;
+void Dynamics<D>::look_ahead(const Particles<D>& particles, double dt, bool others_came) {
+  double speed2 = 0.0, shift2 = 0.0;
   const auto n = static_cast<std::ptrdiff_t>(particles.n_owned);
-#pragma omp parallel for schedule(static) reduction(max : fastest)
+#pragma omp parallel for schedule(static) reduction(max : speed2, shift2)
   for (std::ptrdiff_t row = 0; row < n; ++row) {
     const auto i = static_cast<std::size_t>(row);
-    double speed2 = 0.0;
+    double u2 = 0.0, s2 = 0.0;
     for (std::size_t d = 0; d < D; ++d) {
-      const double speed = particles.u[d][i] + particles.shift[d][i];
-      speed2 += speed * speed;
+      u2 += particles.u[d][i] * particles.u[d][i];
+      s2 += particles.shift[d][i] * particles.shift[d][i];
     }
-    fastest = std::max(fastest, speed2);
+    speed2 = std::max(speed2, u2);
+    shift2 = std::max(shift2, s2);
   }
-  if (others_ != nullptr) others_->take_largest(&fastest, 1);
-  neighbors_.set_skin(suitable_skin<D>(numerics_.kernel_radius, dt * std::sqrt(fastest), numerics_.skin));
+  std::array<double, 3> most = {std::sqrt(speed2), std::sqrt(shift2), others_came ? 1.0 : 0.0};
+  if (others_ != nullptr) others_->take_largest(most.data(), most.size());
+  MotionBounds bounds;
+  bounds.speed = most[0];
+  bounds.shift = most[1];
+  bounds.acceleration = most_acceleration_;
+  if (most[2] > 0.0) bounds.steps = 1;
+  neighbors_.set_outlook(suitable_outlook<D>(numerics_.kernel_radius, dt, bounds, numerics_.skin));
 }
 
 template <int D>
-void Dynamics<D>::build_lists(Particles<D>& particles) {
+void Dynamics<D>::build_lists(Particles<D>& particles, double t) {
   ghosts_.create(particles, neighbors_.reach());
-  neighbors_.build(particles, cell_side(particles, neighbors_.least_cell_side(), others_));
+  neighbors_.build(particles, t, cell_side(particles, neighbors_.least_cell_side(), others_));
   if (walls_) {
     walls_->part(particles, neighbors_);
-    walls_->build(particles);
+    walls_->build(particles, neighbors_.outlook().way());
   }
   ++work_.list_builds;
 }
@@ -116,19 +122,20 @@ void Dynamics<D>::prepare(Particles<D>& particles, double t, StepHooks<D>* hooks
     const PhaseSeconds::Scope scope(seconds_, Phase::lists);
     if (walls_) walls_->move_to(t);
     // Lists that would become outdated in the middle of the step are built now: only here can particles that
-    // left through a periodic face be brought back, so that none strays further than half the skin.
-    if (outdated(particles, dt)) {
+    // left through a periodic face be brought back, so that none goes further than the skin.
+    if (outdated(particles, t, dt)) {
+      const bool others_came = neighbors_.others_came(particles);  // migration apart
       work_.mirrored_back +=
           static_cast<std::int64_t>(ghosts_.bring_back(particles, k_mirror_tolerance * numerics_.spacing, t));
       if (others_ != nullptr) others_->migrate(particles);
-      choose_skin(particles, dt > 0.0 ? dt : stable_time_step());
+      look_ahead(particles, dt > 0.0 ? dt : stable_time_step(), others_came);
       particles.permute(neighbors_.space_order(particles));
-      build_lists(particles);
+      build_lists(particles, t);
       surface_current_ = false;
     } else {
       ghosts_.refresh(particles);
       if (walls_ && walls_->outdated()) {
-        walls_->build(particles);
+        walls_->build(particles, neighbors_.outlook().way());
         surface_current_ = false;  // the walls' support belongs to their rows
       }
     }
@@ -178,10 +185,10 @@ void Dynamics<D>::right_hand_side(Particles<D>& particles, double t) {
   {
     const PhaseSeconds::Scope scope(seconds_, Phase::lists);
     ghosts_.refresh(particles);
-    if (outdated(particles, 0.0))
-      build_lists(particles);  // in the middle of a step: no sorting
+    if (outdated(particles, t, 0.0))
+      build_lists(particles, t);  // in the middle of a step: no sorting
     else if (walls_ && walls_->outdated())
-      walls_->build(particles);
+      walls_->build(particles, neighbors_.outlook().way());
   }
   if (walls_) {
     const PhaseSeconds::Scope scope(seconds_, Phase::walls);

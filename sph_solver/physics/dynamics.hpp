@@ -94,9 +94,9 @@ class Dynamics {
   PhaseSeconds& seconds() { return seconds_; }
 
  private:
-  bool outdated(const Particles<D>& particles, double ahead);
-  void build_lists(Particles<D>& particles);
-  void choose_skin(const Particles<D>& particles, double dt);
+  bool outdated(const Particles<D>& particles, double t, double ahead);
+  void build_lists(Particles<D>& particles, double t);
+  void look_ahead(const Particles<D>& particles, double dt, bool others_came);
   template <class Real>
   void pair_loops(const Particles<D>& particles, PairRows<D, Real>& rows);
   void update(Particles<D>& particles, double advance, double weight, bool last, double dt);

@@ -87,7 +87,7 @@ TEST(BodiesSheetsTest, EachPlaceOfAKernelIsInSightOrHeldByOneDummy) {
   neighbors.build(particles);
   const std::vector<std::size_t> whole(neighbors.start(), neighbors.start() + neighbors.n_rows() + 1);
   walls->part(particles, neighbors);
-  walls->build(particles);
+  walls->build(particles, 0.5 * numerics.skin);
   std::size_t hidden = 0;
   for (std::size_t i = 0; i < particles.n_owned; ++i) {
     const auto in_reach = [&](double dx, double dz) {
@@ -123,7 +123,7 @@ TEST(BodiesSheetsTest, AParticleThatWentThroughIsPutBackFromEitherSideAndOneThat
     particles.x[1][0] = 3.0;
     particles.x[0][1] = 5.0 - 0.1 * side;
     particles.x[1][1] = 5.1;
-    walls->build(particles);
+    walls->build(particles, 0.5 * numerics.skin);
     walls->begin_step(1.0);
     const auto start = particles.x;
     for (const std::size_t i : {0u, 1u}) {

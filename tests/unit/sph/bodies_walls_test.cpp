@@ -193,7 +193,7 @@ TEST(BodiesWallsTest, ParticlesThatEnteredSlightlyArePutBackAndTheBodyGetsTheirM
   const auto numerics = numerics_of_unit_lattice<2>();
   auto particles = still_water<2>(10);
   auto walls = walls_of<2>({tank(2, 10)}, numerics, open_box<2>(10));
-  walls->build(particles);
+  walls->build(particles, 0.5 * numerics.skin);
   const auto start = particles.x;
   particles.x[1][0] = -0.2;
   particles.u[1][0] = -3.0;

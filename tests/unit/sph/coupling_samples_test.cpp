@@ -91,7 +91,7 @@ TEST(SamplesTest, BesideWallsLinearFieldsAreExactAndTheCoverageIsOfWhatTheyLeave
   std::vector<Body> bodies;
   bodies.emplace_back(tank, false, 1.0);
   Walls<3> walls(std::move(bodies), numerics, box, Lattice<3>{box.lower, k_dx});
-  walls.build(particles);
+  walls.build(particles, 0.5 * numerics.skin);
   const auto targets = points({{0.001, 0.001, 0.001}, {0.3, 0.001, 0.5}, {0.5, 0.5, 0.001}});
   coupler::Samples samples;
   samples.resize(targets.size(), true);

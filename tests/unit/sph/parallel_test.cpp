@@ -182,7 +182,7 @@ TEST(HaloPlanTest, ARankWithoutParticlesGetsAndGivesNothing) {
 template <int D>
 std::vector<std::int64_t> row_of(const Particles<D>& particles, std::int64_t id) {
   NeighborList<D> neighbors(2.5, 0.3);
-  neighbors.build(particles, neighbors.least_cell_side());
+  neighbors.build(particles, 0.0, neighbors.least_cell_side());
   std::vector<std::int64_t> row;
   for (std::size_t i = 0; i < particles.n_owned; ++i)
     if (particles.id[i] == id)
