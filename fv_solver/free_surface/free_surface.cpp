@@ -90,9 +90,12 @@ void FreeSurface<D>::follow(std::vector<Block<D>>& blocks, const Exchange<D>& ex
   exchange.states(blocks, q);
   std::vector<const VectorField<D>*> u;
   for (const auto& state : q) u.push_back(&state.u);
-  set_.follower.follow(blocks, exchange, set_.band, set_.patches, set_.phi, u, set_.surface_velocity);
+  const bool settled = evaluations_ >= k_settling;
+  set_.follower.follow(blocks, exchange, set_.band, set_.patches, set_.phi, u, settled,
+                       set_.surface_velocity);
   move_phi(blocks, exchange);
-  if (evaluations_++ < k_settling) set_masks(blocks, exchange);
+  ++evaluations_;
+  if (!settled) set_masks(blocks, exchange);
   continue_pressure(blocks, equations.fluid, q);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "level_set/band.hpp"
@@ -45,6 +46,10 @@ class VelocityExtension {
   std::vector<Field> reached_;                     // [block] pass in which a cell got its value; 0: water
 };
 
+/// From a cell to the middle of the stencil that interpolates at its foot, along each direction of the grid.
+template <int D>
+using StencilStep = std::array<std::int8_t, D>;
+
 /// u_s [m/s]: the velocity of the closest surface point, for the cells of a band and ghosts that stand for
 /// them. Layer 0 interpolates u and its gradient (quadratic along the grid's directions, in water and
 /// continued air) at its foot on the surface of phi; a cell further out takes both from where it has its
@@ -53,15 +58,18 @@ template <int D>
 class SurfaceVelocity {
  public:
   /// phi: may have moved on since the band and the patches
+  /// settled: cells of layer 0 keep the stencil of the call before, on the same band: a foot halfway between
+  /// two centres must not keep an inner iteration from converging
   /// pre u is continued into two layers of air at least, ghosts of u and phi current
   /// comm exchange of u and its gradient at the bases after each layer but the last, of u_s once
   void follow(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange, const Band<D>& band,
               const SurfacePatches<D>& patches, const std::vector<Field>& phi,
-              const std::vector<const VectorField<D>*>& u, std::vector<VectorField<D>>& u_s);
+              const std::vector<const VectorField<D>*>& u, bool settled, std::vector<VectorField<D>>& u_s);
 
  private:
   std::vector<VectorField<D>> base_;                     // [block] [m/s] u at the patch's base
   std::vector<std::array<VectorField<D>, D>> gradient_;  // [block][component] [1/s] there
+  std::vector<std::vector<StencilStep<D>>> step_;        // [block][cell of layer 0]
 };
 
 }  // namespace littoral::fv

@@ -15,5 +15,5 @@ littoral_gtest(
           overset_test.cpp
           plot3d_test.cpp
           residual_test.cpp
-          stepper_test.cpp
+          stepper_test.cpp surface_velocity_test.cpp
   LIBS fv_core)

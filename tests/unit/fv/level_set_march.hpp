@@ -64,7 +64,7 @@ struct March {
     for (const auto& field : u) at.push_back(&field);
     const SurfaceStep<D> equation{scheme, phi_n, phi_nm1, surface.forcing, surface.band, surface.patches};
     for (int i = 0; i < iterations; ++i) {
-      surface.follower.follow(blocks, exchange, surface.band, surface.patches, surface.phi, at,
+      surface.follower.follow(blocks, exchange, surface.band, surface.patches, surface.phi, at, false,
                               surface.surface_velocity);
       residual = transport<D>(blocks, exchange, equation, surface.surface_velocity, surface.options.sweeps,
                               surface.phi);

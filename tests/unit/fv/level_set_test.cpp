@@ -246,7 +246,7 @@ TYPED_TEST(LevelSetTest, SurfaceVelocityIsThatOfTheClosestPoint) {
     March<D> march(sheared_box<D>(D == 2 ? 24 << i : 14 << i, 0.2), shape, {}, 3);
     march.set_flow(flow, 0.0);
     march.surface.follower.follow(march.blocks, march.exchange, march.surface.band, march.surface.patches,
-                                  march.surface.phi, {&march.u[0]}, march.surface.surface_velocity);
+                                  march.surface.phi, {&march.u[0]}, false, march.surface.surface_velocity);
     for (const std::ptrdiff_t c : march.surface.band.cells(0)) {
       SpaceVector<D> r = place(march.blocks[0], c);
       for (double& x : r) x -= 0.5;
