@@ -167,11 +167,12 @@ void step_row(const Options& options, const std::string& name, const std::array<
 }
 
 /// A linear standing wave of length 1 m as its surface passes the level at rest, in a periodic tank .75 m
-/// high, water .5 m deep, 680 steps a period, the Courant number of 170 at 128 cells; or the same tank full
-/// of water under a lid, with a vortex of that speed.
+/// high, water .5 m deep, n cells a wavelength, the Courant number of 170 steps a period at 128 cells; or the
+/// same tank full of water under a lid, with a vortex of that speed.
 void tank_row(const Options& options, const std::string& name, int n, bool surface) {
   if (!options.wants(name)) return;
-  constexpr double gravity = 9.81, amplitude = 0.01, depth = 0.5, height = 0.75, steps = 680.0;
+  constexpr double gravity = 9.81, amplitude = 0.01, depth = 0.5, height = 0.75;
+  const double steps = 170.0 * n / 128.0;
   const double k = 2.0 * M_PI, m = M_PI / height, omega = std::sqrt(gravity * k * std::tanh(k * depth));
   Block<2> block = make_block<2>("tank", {n, 3 * n / 4}, {true, false}, [&](const std::array<int, 2>& i) {
     return std::array<double, 2>{i[0] / double(n), i[1] / double(n) - depth};
@@ -222,6 +223,8 @@ void all(const Options& options, int threads) {
   step_row<3>(options, "steps 3-D lid cavity", {64, 64, 72}, true, 0.01);
   step_row<3>(options, "steps 3-D vortices", {64, 64, 72}, false, 0.01);
   tank_row(options, "steps 2-D tank, free surface", 512, true);
+  tank_row(options, "steps 2-D tank 256, free surface", 256, true);
+  tank_row(options, "steps 2-D tank 128, free surface", 128, true);
   tank_row(options, "steps 2-D tank, full", 512, false);
 }
 
