@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "coupling/face_elements.hpp"
+#include "coupling/particle_exchange.hpp"
 #include "coupling_support.hpp"
 
 // Regions of several boxes: an L of two that touch.
@@ -83,6 +84,50 @@ TEST(SeveralBoxesTest, AParticleLeavesThroughTheUnionsBoundary) {
   const std::size_t corner = through({1.2505, 0.651});  // in the bay of the L
   ASSERT_LT(corner, faces.size());
   EXPECT_LT(std::hypot(faces[corner].centre[0] - 1.25, faces[corner].centre[1] - 0.65), 0.08);
+}
+
+/// Particles inside the outer faces of each box.
+template <int D>
+std::vector<double> count_by_box(const Particles<D>& particles, const Layers<D>& layers) {
+  std::vector<double> n;
+  for (const auto& box : layers.boxes()) {
+    n.push_back(0.0);
+    for (std::size_t i = 0; i < particles.n_owned; ++i) n.back() += box.inside_outer(at<D>(particles.x, i));
+  }
+  return n;
+}
+
+TEST(SeveralBoxesTest, AStreamLeavesOneBoxAndEntersTheNext) {
+  // outer faces .75 apart, the second box half a row higher
+  const double dx = 0.125, u = 1.0, dt = 0.15 * dx * 1.01, rise = 0.0625;
+  const Layers<2> layers({open_box<2>({0.0, 0.0}, {1.0, 1.0}), open_box<2>({2.75, rise}, {3.75, 1.0 + rise})},
+                         0.25, 0.25);
+  const LinearEos eos{1000.0, 10.0, 0.0};
+  const auto fv = stream({u, 0.0, 0.0});
+  Particles<2> particles;
+  for (const auto& box : layers.boxes()) {
+    const auto own = test::lattice<2>(box.outer_lower, box.outer_upper, dx, eos, fv);
+    for (std::size_t i = 0; i < own.n_owned; ++i)
+      particles.append({at<2>(own.x, i), at<2>(own.u, i), own.V[i], own.m[i], own.p[i], own.zone[i]});
+  }
+  ParticleExchange<2> exchange(layers, eos, dx, Removal::crossing);
+  exchange.start(particles);
+  const auto start = count_by_box(particles, layers);
+  constexpr int k_steps = 400;
+  for (int k = 0; k < k_steps; ++k) {
+    for (std::size_t i = 0; i < particles.n_owned; ++i) particles.x[0][i] += u * dt;
+    exchange.step(particles, fv, k * dt, dt);
+    const auto ledger = exchange.ledger(particles);
+    const auto n = count_by_box(particles, layers);
+    ASSERT_LT(std::fabs(ledger.defect), 1e-14 * ledger.mass_inside) << "step " << k;
+    for (std::size_t b = 0; b < 2; ++b) ASSERT_LE(std::fabs(n[b] - start[b]), 16.0) << "a row of box " << b;
+    ASSERT_EQ(n[0] + n[1], static_cast<double>(particles.n_owned)) << "none between the boxes";
+  }
+  const double rows = k_steps * u * dt / dx;  // that have crossed each face
+  const auto& counts = exchange.counts();
+  EXPECT_NEAR(static_cast<double>(counts.injected_through[0]), 2.0 * 16.0 * rows, 2.0 * 16.0);
+  EXPECT_NEAR(static_cast<double>(counts.removed_through[1]), 2.0 * 16.0 * rows, 2.0 * 16.0);
+  EXPECT_EQ(counts.injected_through[1] + counts.removed_through[0], 0);
 }
 
 }  // namespace
