@@ -43,3 +43,12 @@ def check(case):
         case.metric(f"{sph}+{fv} ranks, inner drop 1e-9", difference(base, run), at_most=1e-7)
     alone = [case.run("configs/cylinder", name=f"cylinder{fv}", fv_ranks=fv, threads=1, set=CYLINDER) for fv in (1, 3)]
     case.metric("cylinder alone on 3 ranks: energy", difference(*alone), at_most=1e-7)
+    # a surface through the region's faces, forced and imposed cells
+    wave = case.folder.parent / "standing_wave_surface" / "scene"
+    for kind in ("forced", "imposed"):
+        common = [f"scene.coupling.kind={kind}", "scene.constants.n=10", "scene.time.max_windows=40", "scene.time.field_interval=0",
+                  "fv.dual_time.drop=1e-9"]
+        base, *others = [case.run(wave, name=f"wave_{kind}{sph}{fv}", sph_ranks=sph, fv_ranks=fv, threads=1, set=common)
+                         for sph, fv in ((1, 1), (2, 1), (1, 2), (2, 2))]
+        for name, run in zip(("2+1", "1+2", "2+2"), others):
+            case.metric(f"{kind}, surface through the faces, {name} ranks", difference(base, run), at_most=1e-9)

@@ -24,26 +24,35 @@ def different_datasets(one, two):
     return found
 
 
-def check(case):
-    common = [f"scene.coupling.dt={DT}", f"scene.time.checkpoint_interval={N * DT}", "scene.time.field_interval=0"]
-    whole = case.run("configs/piston", name="whole", threads=1, set=common + [f"scene.time.end={2 * N * DT}"])
+def compare(case, name, scene, settings, interval, n, ranks=(1, 1)):
+    """A run of 2 n windows and its second half again; interval [s] between checkpoints, of which one falls on the middle."""
+    common = [*settings, f"scene.time.checkpoint_interval={interval}", "scene.time.field_interval=0"]
+    ranks = {"sph_ranks": ranks[0], "fv_ranks": ranks[1], "threads": 1}
+    whole = case.run(scene, name=f"{name}_whole", set=common, **ranks)
     windows = sorted(set(checkpoints(whole.sph.folder)) & set(checkpoints(whole.fv.folder)))
-    case.metric("windows with checkpoints of both", len(windows), at_least=2)
-    second = case.out / "second"
+    case.metric(f"{name}: windows with checkpoints of both", len(windows), at_least=2)
+    second = case.out / f"{name}_second"
     shutil.rmtree(second, ignore_errors=True)
     second.mkdir()
-    again = case.run("configs/piston", name="second", keep=True, threads=1, restart=windows[0], restart_from=whole,
-                     set=common + [f"scene.time.end={2 * N * DT}"])
+    again = case.run(scene, name=f"{name}_second", keep=True, restart=windows[-2], restart_from=whole, set=common, **ranks)
     for side in ("sph", "fv"):
         a, b = getattr(whole, side), getattr(again, side)
         last_a, last_b = checkpoints(a.folder)[windows[-1]], checkpoints(b.folder).get(windows[-1])
-        case.holds(f"{side}: writes the last checkpoint again", last_b is not None)
+        case.holds(f"{name}, {side}: writes the last checkpoint again", last_b is not None)
         if last_b is not None:
-            case.metric(f"{side}: datasets of the last checkpoint that differ",
-                        len([n for n in different_datasets(last_a, last_b) if "wall" not in n]), at_most=0)
+            case.metric(f"{name}, {side}: datasets of the last checkpoint that differ",
+                        len([d for d in different_datasets(last_a, last_b) if "wall" not in d]), at_most=0)
         one, two = a.scalars, b.scalars
         later = one["time"] > two["time"][0] - 1e-12
-        names = [n for n in ("kinetic_energy", "potential_energy", "mass") if n in one]
+        columns = [c for c in ("kinetic_energy", "potential_energy", "mass") if c in one]
         rows = min(later.sum(), len(two))
-        same = all(np.array_equal(one[n][later][-rows:], two[n][-rows:]) for n in names)
-        case.holds(f"{side}: scalars of the second half are equal", same and rows >= N - 1)
+        same = all(np.array_equal(one[c][later][-rows:], two[c][-rows:]) for c in columns)
+        case.holds(f"{name}, {side}: scalars of the second half are equal", same and rows >= n - 1)
+
+
+def check(case):
+    compare(case, "piston", "configs/piston", [f"scene.coupling.dt={DT}", f"scene.time.end={2 * N * DT}"], N * DT, N)
+    # a surface through the region's faces, forced and imposed cells, each solver on two ranks
+    for kind in ("forced", "imposed"):
+        compare(case, f"wave_{kind}", case.folder.parent / "standing_wave_surface" / "scene",
+                [f"scene.coupling.kind={kind}", "scene.constants.n=10", "scene.time.end=2"], 1, 13, ranks=(2, 2))
