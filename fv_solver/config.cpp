@@ -199,10 +199,6 @@ FvConfig FvConfig::from_file(const std::string& path, const std::vector<std::str
   for (const auto& setting : settings) document.set(setting);
   FvConfig config;
   scene = support::read_both_files(document, scene_settings, [&](Binder& binder) { config.bind(binder); });
-  if (scene.has_body_force())
-    throw ConfigError(document.resolve(config.scene) +
-                      ": body_force acts on particles only; give the grid its force per volume in fv.yaml, "
-                      "source.u, source.v, source.w, and leave body_force out.");
   for (GridFileConfig& grid : config.grid_files) grid.file = document.resolve(grid.file);
   return config;
 }

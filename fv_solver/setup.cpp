@@ -63,11 +63,7 @@ std::unique_ptr<StepSolver<D>> step_solver_of(const FvConfig& config, const supp
 }
 
 template <int D>
-std::vector<Sponge<D>> sponges_of(const FvConfig& config, const support::Scene& scene) {
-  if (scene.coupling.kind == support::Scene::CouplingKind::forced)
-    throw ConfigError(
-        "sponges: not together with coupling.kind: forced, whose cells use the same rows; use imposed, or a "
-        "far_field");
+std::vector<Sponge<D>> sponges_of(const FvConfig& config) {
   std::vector<Sponge<D>> sponges;
   for (const SpongeConfig& s : config.sponges) {
     Sponge<D> sponge{s.axis, s.centre, s.from, s.to, s.rate, s.power, {}, {}};
@@ -198,6 +194,37 @@ OwnPart<D> own_part(Grid<D> grid, const FvConfig& config, const Ranks& ranks,
 
 }  // namespace
 
+namespace {
+
+/// The grid's own sources per volume, and the scene's acceleration of all water: rho0 a.
+template <int D>
+void set_sources(const FvConfig& config, const support::Scene& scene, Stepper<D>& stepper) {
+  const auto& source = config.source;
+  if (!source.mass && !source.u && !source.v && !source.w && !scene.has_body_force()) return;
+  const auto given = [](const std::optional<support::Formula>& f, const char* key) {
+    return prescribed(f.value_or(support::Formula()), key);
+  };
+  const Prescribed mass = given(source.mass, "source.mass");
+  const std::array<Prescribed, 3> force = {given(source.u, "source.u"), given(source.v, "source.v"),
+                                           given(source.w, "source.w")};
+  const std::array<Prescribed, 3> acceleration = {prescribed(scene.body_force.x, "body_force.x"),
+                                                  prescribed(scene.body_force.y, "body_force.y"),
+                                                  prescribed(scene.body_force.z, "body_force.z")};
+  stepper.set_source(
+      [mass, force, acceleration, rho0 = scene.fluid.density](const std::array<double, D>& at, double t) {
+        const coupler::Vec3 x = vector_in_space<D>(at);
+        Source<D> s;
+        s.mass = mass(x, t);
+        for (std::size_t k = 0; k < D; ++k) {
+          const std::size_t axis = axis_in_space<D>(k);
+          s.momentum[k] = force[axis](x, t) + rho0 * acceleration[axis](x, t);
+        }
+        return s;
+      });
+}
+
+}  // namespace
+
 template <int D>
 Stepper<D> make_stepper(const FvConfig& config, const support::Scene& scene, std::vector<std::string>* notes,
                         const Ranks& ranks) {
@@ -237,24 +264,8 @@ Stepper<D> make_stepper(const FvConfig& config, const support::Scene& scene, std
           "the free surface passes through the SPH region's open faces, or the region overlaps the grid, but "
           "the grid ends under water: let it reach into the air");
   }
-  const auto& source = config.source;
-  if (source.mass || source.u || source.v || source.w) {
-    const auto given = [](const std::optional<support::Formula>& f, const char* key) {
-      return prescribed(f.value_or(support::Formula()), key);
-    };
-    const Prescribed mass = given(source.mass, "source.mass");
-    const std::array<Prescribed, 3> components = {given(source.u, "source.u"), given(source.v, "source.v"),
-                                                  given(source.w, "source.w")};
-    stepper.set_source([mass, components](const std::array<double, D>& at, double t) {
-      const coupler::Vec3 x = vector_in_space<D>(at);
-      const coupler::Vec3 force = {components[0](x, t), components[1](x, t), components[2](x, t)};
-      Source<D> s;
-      s.mass = mass(x, t);
-      for (std::size_t k = 0; k < D; ++k) s.momentum[k] = force[axis_in_space<D>(k)];
-      return s;
-    });
-  }
-  if (!config.sponges.empty()) stepper.set_sponges(sponges_of<D>(config, scene));
+  set_sources<D>(config, scene, stepper);
+  if (!config.sponges.empty()) stepper.set_sponges(sponges_of<D>(config));
   return stepper;
 }
 

@@ -28,6 +28,7 @@ void force_cells(const TargetCells<D>& cells, const std::vector<Imposed<D>>& val
     if (given.cell.empty()) continue;
     Forcing<D>& forcing = stepper.forcing()[b];
     forcing.rate.assign(block.extent.size, 0.0);
+    forcing.pressure_rate.assign(block.extent.size, 0.0);
     forcing.target.resize(block.extent.size);
     forcing.psi = equations.fluid.inverse_c2 > 0.0 ? equations.fluid.inverse_c2
                                                    : 1.0 / (equations.speeds.c0 * equations.speeds.c0);
@@ -41,7 +42,7 @@ void force_cells(const TargetCells<D>& cells, const std::vector<Imposed<D>>& val
       const double rate = K / std::min(dt, shortest_edge(block, c) / u_ref);  // (22)
       const std::uint8_t known = cells.known(b)[m];
       // nothing to drive it to where the particles gave no value
-      forcing.rate[c] = (known & known_state) != 0 ? rate : 0.0;
+      forcing.rate[c] = forcing.pressure_rate[c] = (known & known_state) != 0 ? rate : 0.0;
       forcing.target.p[c] = given.p[m];
       for (std::size_t k = 0; k < D; ++k) forcing.target.u[k][c] = given.u[k][m];
       if (surface == nullptr || (known & known_phi) == 0) continue;

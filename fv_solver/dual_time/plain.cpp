@@ -123,7 +123,8 @@ StepReport PlainDualTime<D>::solve(const StepProblem<D>& problem, const InnerTol
           for (std::size_t c = first; c < first + n; ++c) {
             const double step = stage * pseudo_step_[b][c];
             const double forced = forcing.active() ? forcing.rate[c] : 0.0;
-            const double a_p = beta_[b][c] * (problem.time.a0 * inverse_c2 + forced * forcing.psi);
+            const double of_p = forcing.pressure_rate.empty() ? 0.0 : forcing.pressure_rate[c];
+            const double a_p = beta_[b][c] * (problem.time.a0 * inverse_c2 + of_p * forcing.psi);
             const double a_u = problem.time.a0 + forced;
             const double per_volume = step * block.solved[c] / block.volume[c];
             double& p = q[b].p[c];

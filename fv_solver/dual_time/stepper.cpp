@@ -78,6 +78,7 @@ void Stepper<D>::set_surface(const Prescribed& surface, const LevelSetOptions& o
 template <int D>
 void Stepper<D>::set_sponges(std::vector<Sponge<D>> sponges) {
   sponges_ = std::move(sponges);
+  damping_.assign(blocks_.size(), {});
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const Block<D>& block = blocks_[b];
     Field rate(block.extent.size, 0.0);
@@ -88,28 +89,30 @@ void Stepper<D>::set_sponges(std::vector<Sponge<D>> sponges) {
         rate[static_cast<std::size_t>(c)] += sponge.strength(centre_in_space<D>(block, c));
       any = any || rate[static_cast<std::size_t>(c)] > 0.0;
     });
-    if (!any) continue;
-    forcing_[b].rate = std::move(rate);
-    forcing_[b].target.resize(block.extent.size);
+    if (any) damping_[b] = std::move(rate);
   }
 }
 
-/// u* at time t; where sponges overlap, the mean weighted with their strengths.
+/// u* at time t; where sponges overlap, the mean weighted with their strengths. The partner's cells are its
+/// own.
 template <int D>
 void Stepper<D>::aim_sponges(double t) {
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
-    if (!forcing_[b].active()) continue;
+    if (damping_[b].empty()) continue;
     const Block<D>& block = blocks_[b];
+    forcing_[b].rate.resize(block.extent.size, 0.0);
+    forcing_[b].target.resize(block.extent.size);
     for_each_index<D>({}, block.extent.n, [&](const std::array<int, D>& index) {
       const std::ptrdiff_t offset = block.extent.at(index);
       const auto c = static_cast<std::size_t>(offset);
-      if (forcing_[b].rate[c] == 0.0) return;
+      if (damping_[b][c] == 0.0 || block.status[c] == CellStatus::forced) return;
+      forcing_[b].rate[c] = damping_[b][c];
       const coupler::Vec3 x = centre_in_space<D>(block, offset);
       for (std::size_t k = 0; k < D; ++k) {
         double sum = 0.0;
         for (const Sponge<D>& sponge : sponges_)
           if (sponge.velocity[k]) sum += sponge.strength(x) * sponge.velocity[k](x, t);
-        forcing_[b].target.u[k][c] = sum / forcing_[b].rate[c];
+        forcing_[b].target.u[k][c] = sum / damping_[b][c];
       }
     });
   }
@@ -119,12 +122,14 @@ void Stepper<D>::aim_sponges(double t) {
 template <int D>
 void Stepper<D>::aim_surface_sponges(double t) {
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    if (damping_[b].empty()) continue;
     const Block<D>& block = blocks_[b];
     SurfaceForcing& forcing = surface_->level_set().forcing[b];
-    forcing.rate.assign(block.extent.size, 0.0);
-    forcing.target.resize(block.extent.size);
+    forcing.rate.resize(block.extent.size, 0.0);
+    forcing.target.resize(block.extent.size, 0.0);
     for (const std::ptrdiff_t c : surface_->level_set().band.cells(b)) {
       const auto i = static_cast<std::size_t>(c);
+      if (damping_[b][i] == 0.0 || block.status[i] == CellStatus::forced) continue;
       const coupler::Vec3 x = centre_in_space<D>(block, c);
       double rate = 0.0, sum = 0.0;
       for (const Sponge<D>& sponge : sponges_) {

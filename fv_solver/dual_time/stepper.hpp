@@ -53,7 +53,7 @@ class Stepper {
   const FreeSurface<D>* surface() const { return surface_.get(); }
   FreeSurface<D>* surface() { return surface_.get(); }
 
-  /// Zones that damp the flow. Uses forcing(): not together with cells forced by a partner.
+  /// Zones that damp u, and phi, outside of the cells that a partner forces.
   void set_sponges(std::vector<Sponge<D>> sponges);
 
   /// One step from time() to time() + dt. Fringe cells get `imposed` (one entry a block; empty: as they are),
@@ -127,6 +127,7 @@ class Stepper {
   InnerTolerance tolerance_;
   SourceFunction<D> source_;
   std::vector<Sponge<D>> sponges_;
+  std::vector<Field> damping_;  // [block] [1/s] strength of the sponges; empty: none there
   std::vector<Forcing<D>> forcing_;
   std::unique_ptr<FreeSurface<D>> surface_;
   StepPhases phases_;

@@ -211,7 +211,7 @@ StepReport MultigridSolver<D, Real>::solve(const StepProblem<D>& problem, const 
   std::vector<const Field*> rates;
   for (const auto& forcing : problem.forcing) {
     rates.push_back(forcing.active() ? &forcing.rate : nullptr);
-    if (forcing.active()) physics.forcing_psi = forcing.psi;
+    physics.forcing_psi = std::max(physics.forcing_psi, forcing.psi);  // in damping zones an approximation
   }
   levels.anderson.forget();
   StepReport report;

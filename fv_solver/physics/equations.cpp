@@ -184,15 +184,18 @@ class TileLoop {
   /// (21), implicit in q.
   void forcing_row(std::ptrdiff_t c, std::ptrdiff_t n) const {
     const double* __restrict volume = block_.volume.data() + c;
-    const double* __restrict rate = forcing_.rate.data() + c;
-    const auto add = [&](Field& row, const Field& value, const Field& target, double density) {
+    const auto add = [&](Field& row, const Field& of, const Field& value, const Field& target,
+                         double density) {
       double* __restrict r = row.data() + c;
+      const double* __restrict rate = of.data() + c;
       const double* __restrict v = value.data() + c;
       const double* __restrict t = target.data() + c;
       for (std::ptrdiff_t i = 0; i < n; ++i) r[i] += volume[i] * rate[i] * density * (v[i] - t[i]);
     };
-    add(r_.mass, q_.p, forcing_.target.p, forcing_.psi);
-    for (std::size_t k = 0; k < D; ++k) add(r_.momentum[k], q_.u[k], forcing_.target.u[k], constants_.rho0);
+    if (!forcing_.pressure_rate.empty())
+      add(r_.mass, forcing_.pressure_rate, q_.p, forcing_.target.p, forcing_.psi);
+    for (std::size_t k = 0; k < D; ++k)
+      add(r_.momentum[k], forcing_.rate, q_.u[k], forcing_.target.u[k], constants_.rho0);
   }
 
   /// Weight beyond that of the hydrostatic reference: (rho(p) - rho(P)) g.

@@ -58,9 +58,10 @@ struct WaveSpeeds {
 /// Forcing of (21) on one block: empty arrays where the block has no forced cell.
 template <int D>
 struct Forcing {
-  Field rate;        // K/delta [1/s], 0 in cells that are not forced
-  State<D> target;   // q*
-  double psi = 0.0;  // [s^2/m^2] d rho/d p in the mass row: 1/c^2, or 1/c0^2 where c is infinite
+  Field rate;           // [1/s] of u: K/delta, or a damping zone's strength; 0 in cells that are not forced
+  Field pressure_rate;  // [1/s] of p: K/delta, 0 where u alone is; empty: so everywhere
+  State<D> target;      // q*
+  double psi = 0.0;     // [s^2/m^2] d rho/d p in the mass row: 1/c^2, or 1/c0^2 where c is infinite
   bool active() const { return !rate.empty(); }
 };
 

@@ -57,7 +57,7 @@ void Scene::bind(Binder& b) {
     b.key("viscosity", fluid.viscosity).unit("m^2/s").min(0).doc("nu, kinematic; 0: no viscous term.");
   });
   b.key("gravity", gravity).unit("m/s^2").doc("Acceleration vector, as [0, 0, -9.81].");
-  b.section("body_force", "Acceleration of the water besides gravity. Particles only.", [&] {
+  b.section("body_force", "Acceleration of all water besides gravity.", [&] {
     b.key("x", body_force.x).unit("m/s^2").doc("Along x, a formula of x, y, z, t.");
     b.key("y", body_force.y).unit("m/s^2").doc("Along y; 3-D only.");
     b.key("z", body_force.z).unit("m/s^2").doc("Along z.");

@@ -120,6 +120,7 @@ TEST(ResidualTest, ForcingActsOnForcedCellsOnly) {
   forcing.target.resize(block.extent.size);
   forcing.target.u[0][c] = 0.2;
   forcing.target.p[c] = 3.0;
+  forcing.pressure_rate = forcing.rate;
   forcing.psi = 0.01;
   evaluate_windows(block, equations, 0.0);
   fill_ghosts(block, q);
@@ -132,6 +133,11 @@ TEST(ResidualTest, ForcingActsOnForcedCellsOnly) {
   EXPECT_NEAR(r.mass[c], -block.volume[c] * 50.0 * 0.01 * 3.0, 1e-14);
   r.momentum[0][c] = r.mass[c] = 0.0;
   EXPECT_LT(largest(block, r, 1.0, 1.0), 1e-13);
+  // a damping zone leaves p alone
+  forcing.pressure_rate.clear();
+  equations.residual(block, q, BackwardDifference::steady(), history, forcing, r);
+  EXPECT_NEAR(r.momentum[0][c], -block.volume[c] * 50.0 * 1000.0 * 0.2, 1e-12);
+  EXPECT_EQ(r.mass[c], 0.0);
 }
 
 TEST(ResidualTest, FacesBetweenCellsConserveMassAndMomentum) {

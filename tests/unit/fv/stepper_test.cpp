@@ -34,6 +34,7 @@ TEST(StepperTest, ForcingOvershootsAsBackwardDifferencesDo) {
     Forcing<2>& forcing = stepper.forcing()[0];
     const std::size_t size = stepper.blocks()[0].extent.size;
     forcing.rate.assign(size, K / dt);
+    forcing.pressure_rate = forcing.rate;
     forcing.target.resize(size);
     forcing.target.u[0].assign(size, 1.0);
     forcing.psi = 1.0;

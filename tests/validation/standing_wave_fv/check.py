@@ -44,9 +44,9 @@ def check(case):
     run("a patch of cells turned by 20 degrees", 128, scene=case.folder / "patch")
     run("across an overlap", 128, scene=case.folder / "overset")
     run("coarse", 64, 0.3, gates=False)
-    # 23 cells a wavelength: what 128 cells lose, by second order, is 1.6%
-    run("across a square tank", 32, 0.3, scene=case.folder / "space", gates=False, k=2 * math.pi * math.sqrt(2))
-    case.metric("across a square tank, 23 cells: amplitude a period - 1", rows[-1][2] / 100, between=(-0.025, 0.025))
+    # 23 cells a wavelength; small, for a wave in space swings nonlinearly in a way that no formula here knows
+    run("across a square tank", 32, 0.3, amplitude=0.002, scene=case.folder / "space", gates=False, k=2 * math.pi * math.sqrt(2))
+    case.metric("across a square tank, 23 cells: amplitude a period - 1", rows[-1][2] / 100, between=(-0.02, 0.02))
     case.metric("across a square tank, 23 cells: period - 1", rows[-1][3] / 100, between=(-5e-3, 5e-3))
     case.metric("across a square tank, 23 cells: volume", rows[-1][4], below=1e-4)
     case.table("Standing wave, 170 steps a period", ["", "cells a wavelength", "amplitude a period %", "period %",
