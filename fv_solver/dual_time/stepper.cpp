@@ -100,8 +100,10 @@ void Stepper<D>::aim_sponges(double t) {
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     if (damping_[b].empty()) continue;
     const Block<D>& block = blocks_[b];
-    forcing_[b].rate.resize(block.extent.size, 0.0);
-    forcing_[b].target.resize(block.extent.size);
+    if (!forcing_[b].active()) {  // else a partner's rates and targets stand there
+      forcing_[b].rate.assign(block.extent.size, 0.0);
+      forcing_[b].target.resize(block.extent.size);
+    }
     for_each_index<D>({}, block.extent.n, [&](const std::array<int, D>& index) {
       const std::ptrdiff_t offset = block.extent.at(index);
       const auto c = static_cast<std::size_t>(offset);

@@ -157,6 +157,40 @@ TEST(SpongeTest, DampsAsItsRateSaysAndLeavesTheRestAlone) {
   });
 }
 
+/// What a partner forces it forces alone; the zone's other cells of the same block keep their p.
+TEST(SpongeTest, LeavesForcedCellsToThePartner) {
+  Block<2> block = deformed_box<2>(8, 0.0, 0.0, 0.0, {true, false});
+  close_with<2>(block, Condition::slip);
+  for (Window<2>& w : block.windows)
+    if (w.direction == 0) w.condition = Condition::periodic;
+  const std::size_t size = block.extent.size;
+  for_each_index<2>({}, block.extent.n, [&](const std::array<int, 2>& index) {
+    if (index[1] < 4) block.status[static_cast<std::size_t>(block.extent.at(index))] = CellStatus::forced;
+  });
+  Stepper<2> stepper({block}, Equations<2>{}, std::make_unique<MultigridSolver<2>>(), tight());
+  stepper.initialise([](const std::array<double, 2>&, double) { return PointState<2>{}; }, 0.0);
+  Sponge<2> sponge;
+  sponge.axis = 2;
+  sponge.to = 1e-9;  // at full strength everywhere
+  sponge.rate = 3.0;
+  sponge.velocity[0] = [](const std::array<double, 3>&, double) { return 0.25; };
+  stepper.set_sponges({sponge});
+  Forcing<2>& forcing = stepper.forcing()[0];
+  forcing.rate.assign(size, 0.0);
+  forcing.target.resize(size);
+  for (std::size_t c = 0; c < size; ++c)
+    if (block.status[c] == CellStatus::forced) forcing.rate[c] = 5.0, forcing.target.u[0][c] = -1.0;
+  forcing.pressure_rate = forcing.rate;
+  forcing.psi = 1.0;
+  constexpr double dt = 0.1;
+  stepper.advance(dt);  // implicit Euler
+  for_each_index<2>({}, block.extent.n, [&](const std::array<int, 2>& index) {
+    const auto c = static_cast<std::size_t>(block.extent.at(index));
+    const double rate = index[1] < 4 ? 5.0 : 3.0, target = index[1] < 4 ? -1.0 : 0.25;
+    EXPECT_NEAR(stepper.state()[0].u[0][c], dt * rate * target / (1.0 + dt * rate), 1e-8);
+  });
+}
+
 TEST(SpongeTest, RadiusAndLowerSide) {
   Sponge<3> ring;
   ring.axis = 3;

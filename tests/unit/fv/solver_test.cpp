@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <limits>
+
+#include "setup.hpp"
 
 // The loop of a run: what it proposes, and that it does what was agreed on.
 namespace littoral::fv {
@@ -67,6 +70,28 @@ TEST(SolverTest, FieldsAreProposedWhenDueAndWrittenWhenAgreed) {
   const auto refused = run(false);
   EXPECT_EQ(refused.second, 8);  // it goes on asking from .3 on
   EXPECT_EQ(refused.first, 2);   // the first and the last
+}
+
+/// The scene's acceleration is that of all water, the grid's source a force per volume.
+TEST(SolverTest, BodyForceOfTheSceneAndSourceOfTheGridBothAct) {
+  FvConfig config;
+  config.blocks.resize(1);
+  config.blocks[0].upper = {1, 0, 1};
+  config.blocks[0].cells = {8, 1, 8};
+  for (std::size_t face = 0; face < config.blocks[0].faces.size(); ++face)
+    config.blocks[0].faces[face].condition =
+        static_cast<int>(face < 2 ? Condition::periodic : Condition::slip);
+  config.source.u = support::Formula("20*t");
+  support::Scene scene;
+  scene.fluid.density = 40.0;
+  scene.fluid.sound_speed = std::numeric_limits<double>::infinity();
+  scene.reference_velocity = 1.0;
+  scene.domain.upper = {1, 0, 1};
+  scene.body_force.x = support::Formula("0.3");
+  Stepper<2> stepper = make_stepper<2>(config, scene);
+  stepper.advance(0.1);  // implicit Euler
+  EXPECT_NEAR(stepper.state()[0].u[0][static_cast<std::size_t>(stepper.blocks()[0].extent.at({3, 3}))],
+              0.1 * (0.3 + 20.0 * 0.1 / 40.0), 1e-5);  // a drop of 1e-3
 }
 
 }  // namespace
