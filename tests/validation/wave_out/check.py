@@ -5,7 +5,7 @@ import numpy as np
 WAVE, GRAVITY, LEVEL = 0.5, 9.81, 0.3
 OMEGA = np.sqrt(GRAVITY * 2 * np.pi / WAVE)
 GROUP = 0.5 * OMEGA * WAVE / (2 * np.pi)
-WALLS = [f"fv.blocks[0].faces.{side}.condition=slip" for side in ("x_lower", "x_upper")]
+WALLS = [f"fv.blocks[0].faces.{side}={{condition: slip}}" for side in ("x_lower", "x_upper")]
 
 
 def check(case):
