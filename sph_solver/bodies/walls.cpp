@@ -21,6 +21,17 @@ std::vector<BodyState> states_of(const std::vector<Body>& bodies) {
   return states;
 }
 
+/// A state of its own for each dummy of a wall that bends gives energy to water which slides along it, at any
+/// spacing.
+template <int D>
+void require_plane_walls(const std::vector<Body>& bodies, const Dummies<D>& dummies) {
+  for (std::size_t e = 0; e < dummies.size(); ++e)
+    if (dummies[e].patch >= 0)
+      throw ConfigError("wall_states: extrapolated is for plane walls only, and body '" +
+                        bodies[static_cast<std::size_t>(dummies[e].body)].name() +
+                        "' is curved: water sliding along it would gain energy. Use linear.");
+}
+
 }  // namespace
 
 template <int D>
@@ -40,6 +51,7 @@ Walls<D>::Walls(std::vector<Body> bodies, const Numerics<D>& numerics, const Dom
   }
   dummies_.place(bodies_, most_reach_);
   at_step_ = states_of(bodies_);
+  if (numerics.wall_states == WallStates::extrapolated) require_plane_walls<D>(bodies_, dummies_);
 }
 
 template <int D>

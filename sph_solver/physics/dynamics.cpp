@@ -13,6 +13,21 @@ namespace {
 
 constexpr double k_mirror_tolerance = 0.5;  // of dx: how far through a symmetry plane a particle may stray
 
+template <int D>
+bool is_closed(const DomainBox<D>& box) {
+  for (const auto& sides : box.sides)
+    for (const auto side : sides)
+      if (side == support::Scene::Side::open) return false;
+  return true;
+}
+
+template <int D>
+bool any_moves(const Walls<D>* walls) {
+  if (walls == nullptr) return false;
+  const auto& bodies = walls->bodies();
+  return std::any_of(bodies.begin(), bodies.end(), [](const Body& body) { return body.moves(); });
+}
+
 }  // namespace
 
 template <int D>
@@ -24,6 +39,8 @@ Dynamics<D>::Dynamics(const Numerics<D>& numerics, const DomainBox<D>& box, Othe
       neighbors_(numerics.kernel_radius, numerics.skin),
       shifting_(numerics.reference_velocity),
       walls_(std::move(walls)),
+      level_follows_(!numerics.free_surface),
+      closed_(is_closed(box) && !any_moves(walls_.get())),
       pressure_level_(numerics.eos.p0) {
   if (numerics.precision == Precision::mixed) rows_.template emplace<PairRows<D, float>>();
   double g = 0.0;
@@ -222,7 +239,9 @@ void Dynamics<D>::step(Particles<D>& particles, double t, double dt, StepHooks<D
   if (walls_) walls_->begin_step(dt);
   for (std::size_t k = 0; k < stages.count; ++k) {
     if (walls_) walls_->move_to(stages.time(k, t, dt));
+    if (level_follows_) take_off(middle_pressure(particles));
     right_hand_side(particles, stages.time(k, t, dt));  // (S3)-(S8), (S12)-(S14)
+    if (closed_ && level_follows_) keep_total_volume(particles);
     if (walls_) walls_->add_stage_loads(particles, stages[k].weight);
     const bool last = k + 1 == stages.count;
     {
@@ -251,6 +270,38 @@ void Dynamics<D>::step(Particles<D>& particles, double t, double dt, StepHooks<D
     const PhaseSeconds::Scope scope(seconds_, Phase::hooks);
     hooks->after_step(particles, t, dt);
   }
+}
+
+/// Takes the mean off the volumes' rates: water that fills a closed domain keeps its volume. (9) does not see
+/// to that, for of each pair V_i V_j (u_j - u_i) . grad W_ij is left, which a flow that arranges its
+/// particles (shear, strain) keeps above zero; the water would become denser and denser.
+template <int D>
+void Dynamics<D>::keep_total_volume(const Particles<D>& particles) {
+  std::array<double, 2> sums{};  // of the rates, of V; in the order of the particles, whatever the threads
+  for (std::size_t i = 0; i < particles.n_owned; ++i) {
+    sums[0] += rate_.volume[i];
+    sums[1] += particles.V[i];
+  }
+  if (others_ != nullptr) others_->take_sum(sums.data(), sums.size());
+  const double mean = sums[1] > 0.0 ? sums[0] / sums[1] : 0.0;
+  for (std::size_t i = 0; i < particles.n_owned; ++i) rate_.volume[i] -= mean * particles.V[i];
+}
+
+/// Between the least and the largest pressure of all particles [Pa]: unlike a mean the same to the bit on any
+/// number of ranks.
+template <int D>
+double Dynamics<D>::middle_pressure(const Particles<D>& particles) const {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  const auto n = static_cast<std::ptrdiff_t>(particles.n_owned);
+#pragma omp parallel for schedule(static) reduction(min : low) reduction(max : high)
+  for (std::ptrdiff_t row = 0; row < n; ++row) {
+    const auto i = static_cast<std::size_t>(row);
+    low = std::min(low, particles.p[i]);
+    high = std::max(high, particles.p[i]);
+  }
+  std::array<double, 2> ends = {-low, high};
+  if (others_ != nullptr) others_->take_largest(ends.data(), ends.size());
+  return 0.5 * (ends[1] - ends[0]);
 }
 
 template <int D>

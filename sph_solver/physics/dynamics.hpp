@@ -65,13 +65,13 @@ class Dynamics {
     if (walls_) walls_->forget();
   }
 
-  /// Pressure taken off in the pair loops from now on [Pa]; at first that of the surface, p0. For flows
-  /// without a surface any constant is right, since only differences of pressure accelerate them, but
-  /// discretely 2 V_i p sum_j V_j grad W_ij vanishes on regular arrangements only: the nearer to p, the
-  /// smaller.
+  /// Pressure taken off in the pair loops from now on [Pa]. With a free surface that of the surface, p0, from
+  /// the beginning. For flows without one any constant is right, since only differences of pressure
+  /// accelerate them, but discretely 2 V_i p sum_j V_j grad W_ij vanishes on regular arrangements only: the
+  /// nearer to p, the smaller. Without a call each stage takes the particles' own.
   void set_pressure_level(double level) {
-    pressure_level_ = level;
-    if (tension_ != nullptr) tension_->set_level(level);
+    level_follows_ = false;
+    take_off(level);
   }
 
   /// du/dt and dV/dt of the particles as they stand, at time t; copies refreshed. pre: prepare() since
@@ -100,6 +100,12 @@ class Dynamics {
   template <class Real>
   void pair_loops(const Particles<D>& particles, PairRows<D, Real>& rows);
   void update(Particles<D>& particles, double advance, double weight, bool last, double dt);
+  void take_off(double level) {
+    pressure_level_ = level;
+    if (tension_ != nullptr) tension_->set_level(level);
+  }
+  void keep_total_volume(const Particles<D>& particles);
+  double middle_pressure(const Particles<D>& particles) const;
   void remember_start(const Particles<D>& particles);
   void check(const Particles<D>& particles, double t, double dt) const;
 
@@ -116,6 +122,8 @@ class Dynamics {
   TensionSwitch<D>* tension_ = nullptr;  // among terms_, if the scene asks for it
   bool surface_current_ = false;         // flags and the walls' support belong to the positions
   bool crowding_known_ = false;          // detection has left it for the shift of this step
+  bool level_follows_;                   // the particles' own pressure: nobody else sets it
+  bool closed_;                          // by periodic sides, symmetry planes and bodies that stay
   double pressure_level_;                // [Pa] taken off in the pair loops
   double most_acceleration_ = 0.0;       // [m/s^2] of the last right-hand side, driven particles apart
 

@@ -5,6 +5,7 @@
 #include "bodies/triangle_surface.hpp"
 #include "bodies/wall_view.hpp"
 #include "bodies_models.hpp"
+#include "littoral/error.hpp"
 #include "physics/dynamics.hpp"
 
 namespace littoral::sph {
@@ -108,6 +109,26 @@ TEST(BodiesCurvedTest, WaterThatTurnsInARoundTankFeelsNoWall) {
     EXPECT_NEAR(water.dynamics->rate().acceleration[0][i], 0.0, 1e-12);
     EXPECT_NEAR(water.dynamics->rate().acceleration[1][i], 0.0, 1e-12);
     EXPECT_NEAR(water.dynamics->rate().volume[i], 0.0, 1e-12);
+  }
+}
+
+TEST(BodiesCurvedTest, StatesOfDummiesAreForPlaneWallsOnly) {
+  Numerics<2> numerics = numerics_of_unit_lattice<2>();
+  numerics.wall_states = WallStates::extrapolated;
+  for (const auto shape : {Spec::Shape::box, Spec::Shape::cylinder}) {
+    Spec spec;
+    spec.name = "body";
+    spec.shape = shape;
+    spec.radius = 5.0;
+    spec.size = {10.0, 10.0, 10.0};
+    spec.position = {10.0, 0.0, 10.0};
+    std::vector<Body> bodies;
+    bodies.emplace_back(spec, true, 0.1, nullptr);
+    const auto make = [&] { Walls<2>(std::move(bodies), numerics, open_box<2>(20), Lattice<2>{{}, 1.0}); };
+    if (shape == Spec::Shape::box)
+      EXPECT_NO_THROW(make());
+    else
+      EXPECT_THROW(make(), ConfigError);
   }
 }
 
