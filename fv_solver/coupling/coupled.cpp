@@ -121,7 +121,9 @@ void Coupled<D>::step(const coupler::Window& window, const Values& values, Stepp
   }
   stepper.tolerance().drop = drop;
   const int cycles = total.cycles + report.cycles;  // what the window cost, all tries together
-  const bool converged = report.converged && (total.norms.empty() || total.converged);
+  // a rough try is a guess, whatever it reached
+  const bool converged =
+      solve == Solve::rough || (report.converged && (total.norms.empty() || total.converged));
   total = std::move(report);
   total.cycles = cycles;
   total.converged = converged;
