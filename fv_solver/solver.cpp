@@ -154,7 +154,7 @@ void Solver<D>::report(const StepReport& outcome) {
   std::string line = format("t = %.5g s, dt = %.3g s, %d cycles, drop %.1e", stepper_.time(),
                             stepper_.last_dt(), outcome.cycles, outcome.drop());
   if (const FreeSurface<D>* surface = stepper_.surface())
-    line += format(", volume %+.1e", surface->budget().error / surface->budget().volume);
+    line += format(", volume %+.1e", surface->budget().relative_error());
   log_.progress(stepper_.time(), scene_.time.end, line);
   if (config_.dual_time.print_history) {
     std::string history = "inner history [m/s]:";
@@ -211,7 +211,7 @@ void Solver<D>::write_summary(const Companion<D>& companion, const std::string& 
                    {"companion", companion.description()},
                    {"stopped because", reason}};
   if (const FreeSurface<D>* surface = stepper_.surface())
-    summary.results["volume_error"] = surface->budget().error / surface->budget().volume;
+    summary.results["volume_error"] = surface->budget().relative_error();
   if (unconverged_ > 0)
     summary.warnings.push_back(
         format("%ld of %ld steps did not reach the inner tolerance", unconverged_, steps_));

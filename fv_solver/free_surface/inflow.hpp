@@ -21,6 +21,8 @@ struct VolumeBudget {
   double inflow = 0.0;  // [m^D/s] now
   double error = 0.0;   // [m^D] gained since the start beside what came through openings (trapezoidal rule)
 
+  /// Of the water there is; 0 where there is none.
+  double relative_error() const { return volume > 0.0 ? error / volume : 0.0; }
   /// A step has ended with this volume and inflow.
   void add(double volume_now, double inflow_now, double dt) {
     error += volume_now - volume - 0.5 * dt * (inflow + inflow_now);

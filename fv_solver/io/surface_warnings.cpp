@@ -19,6 +19,8 @@ std::string format(const char* pattern, Values... values) {
 
 template <int D>
 std::vector<std::string> SurfaceWarnings::of_start(const FreeSurface<D>& surface, double sound_speed) {
+  if (surface.budget().volume == 0.0)
+    return {"warning: initial.surface (< 0 in water) leaves no water in any cell of the grid"};
   const StartPressure& start = surface.start_pressure();
   if (start.misfit <= StartPressure::k_far) return {};
   if (start.replaced)
@@ -47,7 +49,7 @@ std::vector<std::string> SurfaceWarnings::after(long step, const FreeSurface<D>&
                "them (column thin_water_cells)",
                step, thin.cells, x[0], x[1], x[2]));
   }
-  const double error = surface.budget().error / surface.budget().volume;
+  const double error = surface.budget().relative_error();
   if (std::abs(error) > volume_told_) {
     volume_told_ = 2.0 * std::abs(error);
     warnings.push_back(format(
