@@ -77,6 +77,7 @@ std::array<double, D> NeighborList<D>::foreseen_velocity(const Particles<D>& par
     u[d] = particles.u[d][i];
     speed2 += u[d] * u[d];
   }
+  if (!std::isfinite(speed2)) return {};  // as at rest: the end of the step names the particle
   if (speed2 > outlook_.fastest * outlook_.fastest)
     for (double& component : u) component *= outlook_.fastest / std::sqrt(speed2);
   return u;

@@ -109,6 +109,7 @@ void Dynamics<D>::look_ahead(const Particles<D>& particles, double dt, bool othe
       u2 += particles.u[d][i] * particles.u[d][i];
       s2 += particles.shift[d][i] * particles.shift[d][i];
     }
+    if (!std::isfinite(u2)) continue;  // the end of the step names it
     speed2 = std::max(speed2, u2);
     shift2 = std::max(shift2, s2);
   }
