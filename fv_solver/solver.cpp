@@ -2,6 +2,7 @@
 
 #include <omp.h>
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -13,6 +14,7 @@
 #include "littoral/coupler/job.hpp"
 #include "littoral/error.hpp"
 #include "littoral/support/due.hpp"
+#include "littoral/support/process_use.hpp"
 #include "littoral/support/scene_warnings.hpp"
 #include "setup.hpp"
 #include "version.hpp"
@@ -182,6 +184,9 @@ double Solver<D>::cells() const {
 template <int D>
 void Solver<D>::write_summary(const Companion<D>& companion, const std::string& reason) {
   const Traffic sent = ranks_.traffic() != nullptr ? *ranks_.traffic() : Traffic{};
+  const support::ProcessUse use = support::process_use();
+  std::array<double, 2> used = {use.cpu_seconds, use.peak_memory};
+  ranks_.sum(used);
   const double messages = ranks_.largest(sent.messages), bytes = ranks_.largest(sent.bytes);
   if (!ranks_.root()) return;
   support::Summary summary;
@@ -203,6 +208,8 @@ void Solver<D>::write_summary(const Companion<D>& companion, const std::string& 
                      {"halo_messages_most", messages},  // of any rank
                      {"halo_bytes_most", bytes},
                      {"sums_over_ranks", sent.sums},
+                     {"cpu_seconds", used[0]},  // of all ranks, as the memory
+                     {"peak_memory", used[1]},
                      {"mass", output_->integrals().mass},
                      {"kinetic_energy", output_->integrals().kinetic_energy},
                      {"potential_energy", output_->integrals().potential_energy}};

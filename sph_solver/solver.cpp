@@ -284,17 +284,22 @@ void Solver<D>::write_checkpoint() {
 
 /// What one rank did, summed or the slowest's: on all ranks.
 template <int D>
-WorkCount Solver<D>::work_of_all(std::vector<double>& seconds) {
+WorkCount Solver<D>::work_of_all(std::vector<double>& seconds, support::ProcessUse& use) {
   WorkCount work = dynamics_.work();
   if (!ranks_) return work;
-  std::array<double, 4> parts = {static_cast<double>(work.particle_steps), static_cast<double>(work.pairs),
-                                 static_cast<double>(work.mirrored_back), static_cast<double>(work.kept_out)};
+  std::array<double, 6> parts = {static_cast<double>(work.particle_steps),
+                                 static_cast<double>(work.pairs),
+                                 static_cast<double>(work.mirrored_back),
+                                 static_cast<double>(work.kept_out),
+                                 use.cpu_seconds,
+                                 use.peak_memory};
   ranks_->take_sum(parts.data(), parts.size());
   ranks_->take_largest(seconds.data(), seconds.size());
   work.particle_steps = static_cast<std::int64_t>(parts[0]);
   work.pairs = static_cast<std::int64_t>(parts[1]);
   work.mirrored_back = static_cast<std::int64_t>(parts[2]);
   work.kept_out = static_cast<std::int64_t>(parts[3]);
+  use = {parts[4], parts[5]};
   return work;
 }
 
@@ -309,7 +314,8 @@ void Solver<D>::write_summary(double wall_time) {
   for (std::size_t phase = 0; phase < k_phase_names.size(); ++phase)
     seconds.push_back(dynamics_.seconds()[phase]);
   seconds.insert(seconds.end(), {output_.seconds(), partner_ ? partner_->waited() : 0.0});
-  const WorkCount work = work_of_all(seconds);
+  support::ProcessUse use = support::process_use();
+  const WorkCount work = work_of_all(seconds, use);
   for (std::size_t phase = 0; phase < k_phase_names.size(); ++phase)
     summary.phases.emplace_back(k_phase_names[phase], seconds[phase]);
   summary.phases.emplace_back("output", seconds[k_phase_names.size()]);
@@ -325,6 +331,8 @@ void Solver<D>::write_summary(double wall_time) {
                      {"list_builds", static_cast<double>(work.list_builds)},
                      {"mirrored_back", static_cast<double>(work.mirrored_back)},
                      {"kept_out", static_cast<double>(work.kept_out)},
+                     {"cpu_seconds", use.cpu_seconds},
+                     {"peak_memory", use.peak_memory},
                      {"most_without_donors", static_cast<double>(most_without_donors_)},
                      {"pairs_per_second", pairs_per_second},
                      {"particle_steps_per_second", particle_steps_per_second}};

@@ -12,6 +12,7 @@
 #include "io/output.hpp"
 #include "littoral/coupler/partner.hpp"
 #include "littoral/support/log.hpp"
+#include "littoral/support/process_use.hpp"
 #include "littoral/support/summary.hpp"
 #include "parallel/ranks_mpi.hpp"
 #include "particles/particles.hpp"
@@ -52,7 +53,7 @@ class Solver {
   StepHooks<D>* hooks();
   typename Output<D>::Moment moment(const coupler::Window& window) const;
   void write_summary(double wall_time);
-  WorkCount work_of_all(std::vector<double>& seconds);
+  WorkCount work_of_all(std::vector<double>& seconds, support::ProcessUse& use);
   void add_ranks(support::Summary& summary);
   std::int64_t n_particles();  ///< of all ranks; collective
   std::string describe();

@@ -15,10 +15,11 @@ if(LITTORAL_NATIVE)
   target_compile_options(littoral_options INTERFACE -march=native -mprefer-vector-width=256)
 endif()
 if(LITTORAL_SANITIZE)
-  # alignment: checks at every access of a solver take as long to compile as all the rest; where bytes become numbers,
-  # in the libraries they share, they stay
+  # Checks at every access take as long to compile as all the rest. null, object-size: what they find, the address
+  # sanitizer stops at as well; vptr likewise for objects that have ended. alignment stays where bytes become numbers,
+  # in the libraries the solvers share.
   target_compile_options(
-    littoral_options INTERFACE -fsanitize=${LITTORAL_SANITIZE} -fno-omit-frame-pointer
+    littoral_options INTERFACE -fsanitize=${LITTORAL_SANITIZE} -fno-omit-frame-pointer -fno-sanitize=null,object-size,vptr
     $<$<NOT:$<IN_LIST:$<TARGET_PROPERTY:NAME>,littoral_coupler;littoral_record;littoral_support>>:-fno-sanitize=alignment>)
   target_link_options(littoral_options INTERFACE -fsanitize=${LITTORAL_SANITIZE})
   target_sources(littoral_options
@@ -45,6 +46,9 @@ function(littoral_gtest)
   if(NOT T_TIMEOUT)
     set(T_TIMEOUT 60)
   endif()
+  if(LITTORAL_SANITIZE)
+    math(EXPR T_TIMEOUT "3 * ${T_TIMEOUT}")
+  endif()
   add_executable(${T_NAME} ${T_SOURCES})
   target_link_libraries(${T_NAME} PRIVATE ${T_LIBS} littoral_options GTest::gtest_main)
   list(LENGTH T_SOURCES n_sources)
@@ -67,6 +71,9 @@ function(littoral_mpi_test)
   cmake_parse_arguments(T "FAILS" "NAME;RANKS;TIMEOUT;PASS" "COMMAND" ${ARGN})
   if(NOT T_TIMEOUT)
     set(T_TIMEOUT 60)
+  endif()
+  if(LITTORAL_SANITIZE)
+    math(EXPR T_TIMEOUT "3 * ${T_TIMEOUT}")
   endif()
   set(folder ${CMAKE_CURRENT_BINARY_DIR}/${T_NAME})
   file(MAKE_DIRECTORY ${folder})

@@ -72,9 +72,9 @@ def split_config(text):
     return own, scene
 
 
-def check(scene, bin_dir=None):
-    """All problems of a scene as sentences, and the warnings and predictions as lines."""
-    problems, warnings, configs = [], [], {}
+def check(scene, bin_dir=None, trial=False, threads=None):
+    """All problems of a scene as sentences, and the warnings and predictions as lines; trial: with a run's first windows."""
+    problems, warnings, configs, told = [], [], {}, {}
     for program in scene.programs:
         status, output, errors = ask(program, scene, "--check", bin_dir)
         if status != 0:
@@ -84,9 +84,7 @@ def check(scene, bin_dir=None):
         for text in re.findall(r"(?m)^\w+: (warning: .*)$", output):  # of the scene both programs say the same
             if text not in warnings:
                 warnings.append(text)
-        counted = re.search(r"no problem found; (\d+) cells", output)  # of all blocks, however they are made
-        if counted:
-            configs[program, "cells"] = int(counted.group(1))
+        told[program] = estimate.foreseen(output)
         status, output, errors = ask(program, scene, "--print-config", bin_dir)
         try:
             configs[program], configs[program, "scene"] = split_config(output)
@@ -99,7 +97,9 @@ def check(scene, bin_dir=None):
     predictions = []
     if not problems:
         try:
-            predictions = estimate.predict(scene, configs)
+            predictions = estimate.predict(scene, told, configs)
+            if trial:
+                predictions += estimate.try_out(scene, told, configs, bin_dir, threads)
         except (UserError, KeyError, TypeError, ValueError) as reason:
             predictions = [f"no prediction: {reason}"]
     return problems, warnings + predictions
@@ -107,7 +107,7 @@ def check(scene, bin_dir=None):
 
 def command(args):
     scene = Scene(args.scene, args.set, args.solver)
-    problems, predictions = check(scene, args.bin)
+    problems, predictions = check(scene, args.bin, args.trial, args.threads)
     for text in problems:
         print(text, file=sys.stderr)
     for text in predictions:

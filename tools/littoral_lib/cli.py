@@ -66,6 +66,9 @@ def build_parser():
                            "and judge their files, compare what the handshake will compare, and predict particles, "
                            "cells, memory and steps. Lists all problems; exit status 0 only if there is none.")
     add_scene_options(check)
+    check.add_argument("--trial", action="store_true",
+                       help="predict seconds too: runs the first windows, of which nothing is kept")
+    check.add_argument("--threads", type=positive, metavar="N", help="OpenMP threads a rank of the trial (default as in run)")
 
     plot = sub.add_parser("plot", help="draw the standard picture of a run",
                           description="Draw energy and elevation (against the exact solution where the scene names "

@@ -22,6 +22,12 @@ class GoodScenes(unittest.TestCase):
                 self.assertEqual(found, [])
                 self.assertTrue(any(line.startswith(("particles:", "cells:")) for line in predictions), predictions)
 
+    def test_a_trial_tells_seconds(self):
+        scene = Scene("still_water", ("scene.constants.n=20",))
+        found, predictions = checking.check(scene, trial=True, threads=1)
+        self.assertEqual(found, [])
+        self.assertRegex(predictions[-2], r"^seconds: about \d+, at the pace of windows \d+ to \d+ of \d+$")
+
 
 class StrangeScenes(unittest.TestCase):
     def test_warnings_of_both_programs_are_shown_once(self):
