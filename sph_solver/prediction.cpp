@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "littoral/error.hpp"
+#include "littoral/support/run_plan.hpp"
 #include "physics/dynamics.hpp"
 
 namespace littoral::sph {
@@ -46,11 +47,16 @@ void place_particles(const RunConfig& config, const Layers<D>& layers, const Wal
         if (filled<D>(boxes[q], at<D>(particles.x, i), config.sph.spacing)) twice[i] = 1;
     particles.remove(twice);
   }
-  if (particles.next_id == 0)
-    throw ConfigError(
-        "the scene has no particle at the start: initial.surface is not below 0 at any lattice point of the "
-        "region outside the bodies. Check its sign (water where it is negative), the region's box and the "
-        "spacing.");
+}
+
+template <int D>
+bool starts_empty(const RunConfig& config, const Particles<D>& particles, bool coupled) {
+  if (particles.next_id > 0) return false;
+  if (coupled && support::level_set_crosses(config.scene)) return true;
+  throw ConfigError(
+      "the scene has no particle at the start: initial.surface is not below 0 at any lattice point of the "
+      "region outside the bodies. Check its sign (water where it is negative), the region's box and the "
+      "spacing.");
 }
 
 namespace {
@@ -78,6 +84,7 @@ Prediction predict_in(const RunConfig& config, bool coupled) {
   const Dynamics<D> dynamics(numerics_of<D>(config), domain_of<D>(config), nullptr,
                              walls_of<D>(config, layers.boxes()[0].outer_lower));
   place_particles<D>(config, layers, dynamics.walls(), particles);
+  (void)starts_empty(config, particles, coupled);
   Prediction prediction;
   prediction.particles = particles.n_owned;
   prediction.dt = dynamics.stable_time_step();
@@ -106,5 +113,7 @@ template void place_particles<2>(const RunConfig&, const Layers<2>&, const Walls
                                  const LatticeShare&);
 template void place_particles<3>(const RunConfig&, const Layers<3>&, const Walls<3>*, Particles<3>&,
                                  const LatticeShare&);
+template bool starts_empty<2>(const RunConfig&, const Particles<2>&, bool);
+template bool starts_empty<3>(const RunConfig&, const Particles<3>&, bool);
 
 }  // namespace littoral::sph

@@ -16,10 +16,18 @@ template <int D>
 Layers<D> region_of(const RunConfig& config, bool coupled);
 
 /// The particles at the start, or one rank's share of them, none inside a body (walls: null without bodies).
-/// throws ConfigError: there is none
 template <int D>
 void place_particles(const RunConfig& config, const Layers<D>& layers, const Walls<D>* walls,
                      Particles<D>& particles, const LatticeShare& share = {});
+
+/// Said when it does.
+constexpr const char* k_starts_empty =
+    "the region holds no particle at the start; it fills where the partner's water comes through its faces";
+
+/// Whether the region starts without particles and may: the partner's surface goes on through it.
+/// throws ConfigError: there is no particle, and none can come
+template <int D>
+bool starts_empty(const RunConfig& config, const Particles<D>& particles, bool coupled);
 
 /// What a run will be, before it is one.
 struct Prediction {

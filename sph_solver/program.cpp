@@ -81,11 +81,12 @@ int run_program(coupler::Job& job, int argc, char** argv) {
     return 0;
   }
   if (options.check) {
-    const std::string prediction = predict(config, coupled).text();
+    const Prediction prediction = predict(config, coupled);
     if (!speaks) return 0;
     for (const std::string& warning : support::scene_warnings(config.scene))
       std::cout << "sph_solver: warning: " << warning << "\n";
-    std::cout << options.config << ": no problem found\n" << prediction;
+    if (prediction.particles == 0) std::cout << "sph_solver: warning: " << k_starts_empty << "\n";
+    std::cout << options.config << ": no problem found\n" << prediction.text();
     return 0;
   }
   const std::string folder = options.out + "/sph";

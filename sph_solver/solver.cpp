@@ -84,6 +84,7 @@ template <int D>
 void Solver<D>::place_particles() {
   const LatticeShare share = ranks_ ? LatticeShare{ranks_->rank(), ranks_->size()} : LatticeShare{};
   sph::place_particles<D>(config_, layers_, dynamics_.walls(), particles_, share);
+  if (starts_empty(config_, particles_, partner_ != nullptr)) log_.warn(k_starts_empty);
   if (ranks_) ranks_->balance(particles_);
   if (config_.sph.initial_distribution != Config::InitialDistribution::relaxed) return;
   relax(particles_, dynamics_.numerics(), domain_of<D>(config_), ranks_.get());

@@ -100,12 +100,12 @@ void sample_states(const Particles<D>& particles, const Layers<D>& layers, const
       const Point<D> target = from_vec3<D>({targets.x[t], targets.y[t], targets.z[t]});
       samples.p[t] = samples.u[t] = samples.v[t] = samples.w[t] = samples.coverage[t] = 0.0;
       samples.status[t] = coupler::SampleStatus::uncovered;
-      if (source.empty() || layers.excess(target) > layers.blending_width()) continue;
+      if (layers.excess(target) > layers.blending_width()) continue;
 
       near.clear();
       double coverage = 0.0;
       Moments<D> A{};
-      grid.for_each_range(target, kernel.R, [&](std::size_t begin, std::size_t end) {
+      const auto add = [&](std::size_t begin, std::size_t end) {
         for (std::size_t q = begin; q < end; ++q) {
           const auto s = static_cast<std::size_t>(grid.order()[q]);
           std::array<double, k_basis<D>> b{1.0};
@@ -122,7 +122,8 @@ void sample_states(const Particles<D>& particles, const Layers<D>& layers, const
           for (std::size_t i = 0; i < k_basis<D>; ++i)
             for (std::size_t j = 0; j < k_basis<D>; ++j) A[i][j] += weight * b[i] * b[j];
         }
-      });
+      };
+      if (!source.empty()) grid.for_each_range(target, kernel.R, add);
       if (walls != nullptr) coverage /= std::max(k_least_free, 1.0 - walls->coverage(target));
       samples.coverage[t] = coverage;
       if (coverage < k_least_coverage) {

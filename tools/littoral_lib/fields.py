@@ -72,6 +72,8 @@ class Piece:
             raise unknown(f"field of {self.name}:", name, self.fields)
         values = np.asarray(self._read(self.fields[name]))
         n = len(self.centres())
+        if n == 0:  # a region that has run dry
+            return values.reshape(0, values.shape[-1]) if values.ndim > 1 else values
         return values.reshape(n) if values.size == n else values.reshape(n, -1)
 
 

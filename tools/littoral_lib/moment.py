@@ -110,4 +110,8 @@ class Moments:
         """Time of the output with the fastest water, the first one left out where there are more."""
         series = next(iter(self.series.values()))
         later = series[1:] or series
-        return max(later, key=lambda s: float(np.square(Part(s).water().u).sum(axis=1).mean())).time
+        return max(later, key=lambda s: _mean_square(Part(s).water().u)).time
+
+
+def _mean_square(u):
+    return float(np.square(u).sum(axis=1).mean()) if len(u) else 0.0

@@ -52,6 +52,17 @@ TEST(PredictionTest, RefusesAnEmptyScene) {
   EXPECT_THROW(predict(config, false), ConfigError);
 }
 
+TEST(PredictionTest, ARegionMayStartDryWhereThePartnersSurfaceGoesOnThroughIt) {
+  RunConfig config = square();
+  config.scene.gravity = {0.0, 0.0, -1.0};
+  config.scene.initial.surface = support::Formula("z - 0.2");  // below the layers
+  EXPECT_THROW(predict(config, true), ConfigError) << "the grid under a level face has no surface";
+  config.scene.coupling.kind = support::Scene::CouplingKind::forced;
+  EXPECT_EQ(predict(config, true).particles, 0u);
+  config.scene.initial.surface = support::Formula("1 + z");
+  EXPECT_THROW(predict(config, false), ConfigError) << "alone nobody brings water";
+}
+
 TEST(PlaceParticlesTest, WhereLayersOfTwoBoxesOverlapTheLatticeStandsOnce) {
   RunConfig config = square();
   config.scene.domain.lower = {-1.0, 0.0, -1.0};

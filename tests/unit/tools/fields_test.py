@@ -7,7 +7,7 @@ import unittest
 import h5py
 import numpy as np
 import tools_path  # noqa: F401
-from littoral_lib import fields
+from littoral_lib import fields, moment
 from littoral_lib.errors import UserError
 
 HEAD = '<Xdmf Version="3.0"><Domain><Grid GridType="Collection" CollectionType="Temporal">'
@@ -45,6 +45,15 @@ class Series(unittest.TestCase):
         self.assertEqual(series[0]["u"].shape, (4, 3))
         with self.assertRaises(UserError):
             series[0]["pressure"]
+
+    def test_a_region_without_particles_has_empty_fields_of_their_kind(self):
+        series = self.write('<Grid Name="g"><Time Value="0"/><Topology TopologyType="Polyvertex" '
+                            f'NumberOfElements="0"/><Geometry>{item("x", "0 3")}</Geometry>'
+                            f'<Attribute Name="pressure">{item("p", "0")}</Attribute>'
+                            f'<Attribute Name="velocity">{item("x", "0 3")}</Attribute></Grid>',
+                            x=np.zeros((0, 3)), p=np.zeros(0))
+        self.assertEqual((series[0]["velocity"].shape, series[0]["pressure"].shape), ((0, 3), (0,)))
+        self.assertEqual(moment.Part(series[0]).speed.shape, (0,))
 
     def test_bodies_are_not_the_water(self):
         (self.folder / "bodies.xdmf").write_text("their own series")
