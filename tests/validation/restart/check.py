@@ -1,27 +1,10 @@
 """C20 on the piston (particles enter and leave): a run, and its second half again from the checkpoint in its middle."""
 
-import shutil
-
-import h5py
 import numpy as np
-from littoral_lib.run import checkpoints
+from lib import restarts
 
 DT = 0.01  # [s] of a window: about two to three particle steps
 N = 60     # windows in each half
-
-
-def different_datasets(one, two):
-    """Names of datasets of two HDF5 files that differ in any bit."""
-    found = []
-    with h5py.File(one, "r") as a, h5py.File(two, "r") as b:
-        names = set()
-        a.visititems(lambda name, item: names.add(name) if isinstance(item, h5py.Dataset) else None)
-        b.visititems(lambda name, item: names.add(name) if isinstance(item, h5py.Dataset) else None)
-        for name in sorted(names):
-            if name not in a or name not in b or a[name].shape != b[name].shape or \
-                    a[name][()].tobytes() != b[name][()].tobytes():
-                found.append(name)
-    return found
 
 
 def compare(case, name, scene, settings, interval, n, ranks=(1, 1)):
@@ -29,19 +12,15 @@ def compare(case, name, scene, settings, interval, n, ranks=(1, 1)):
     common = [*settings, f"scene.time.checkpoint_interval={interval}", "scene.time.field_interval=0"]
     ranks = {"sph_ranks": ranks[0], "fv_ranks": ranks[1], "threads": 1}
     whole = case.run(scene, name=f"{name}_whole", set=common, **ranks)
-    windows = sorted(set(checkpoints(whole.sph.folder)) & set(checkpoints(whole.fv.folder)))
+    windows = restarts.common_windows(whole)
     case.metric(f"{name}: windows with checkpoints of both", len(windows), at_least=2)
-    second = case.out / f"{name}_second"
-    shutil.rmtree(second, ignore_errors=True)
-    second.mkdir()
-    again = case.run(scene, name=f"{name}_second", keep=True, restart=windows[-2], restart_from=whole, set=common, **ranks)
+    again = restarts.go_on(case, scene, f"{name}_second", windows[-2], whole, set=common, **ranks)
+    differing = restarts.differences(whole, again, windows[-1])
     for side in ("sph", "fv"):
         a, b = getattr(whole, side), getattr(again, side)
-        last_a, last_b = checkpoints(a.folder)[windows[-1]], checkpoints(b.folder).get(windows[-1])
-        case.holds(f"{name}, {side}: writes the last checkpoint again", last_b is not None)
-        if last_b is not None:
-            case.metric(f"{name}, {side}: datasets of the last checkpoint that differ",
-                        len([d for d in different_datasets(last_a, last_b) if "wall" not in d]), at_most=0)
+        case.holds(f"{name}, {side}: writes the last checkpoint again", differing[side] is not None)
+        if differing[side] is not None:
+            case.metric(f"{name}, {side}: datasets of the last checkpoint that differ", len(differing[side]), at_most=0)
         one, two = a.scalars, b.scalars
         later = one["time"] > two["time"][0] - 1e-12
         columns = [c for c in ("kinetic_energy", "potential_energy", "mass") if c in one]
