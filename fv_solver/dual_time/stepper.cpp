@@ -7,6 +7,7 @@
 #include "boundary/ghosts.hpp"
 #include "grid/between.hpp"
 #include "grid/loops.hpp"
+#include "grid/small_matrix.hpp"
 #include "grid/space.hpp"
 #include "littoral/error.hpp"
 
@@ -19,7 +20,18 @@ std::string number(double value) {
   return text;
 }
 
-const char* const k_advice = "try a smaller step, a smaller dual_time.pseudo_cfl, or the limiter.";
+template <int D>
+std::string place(const std::array<double, D>& x) {
+  std::string text;
+  for (const double value : x) {
+    char number[32];
+    std::snprintf(number, sizeof number, "%s%.4g", text.empty() ? "" : ", ", value);
+    text += number;
+  }
+  return text;
+}
+
+const char* const k_advice = "try a smaller step, or the limiter.";
 
 }  // namespace
 
@@ -302,7 +314,35 @@ void Stepper<D>::recall(const Memory& memory) {
 
 template <int D>
 void Stepper<D>::check(const std::string& advice) const {
-  exchange_.ranks().template together<StabilityError>([&] { check_own(advice); });
+  try {
+    exchange_.ranks().template together<StabilityError>([&] { check_own(advice); });
+  } catch (const StabilityError& lost) {  // on all ranks
+    throw StabilityError(lost.what() + fastest_before());
+  }
+}
+
+/// For a message: where a run is lost, all cells of a block are in the same step; a step before, it shows in
+/// one.
+template <int D>
+std::string Stepper<D>::fastest_before() const {
+  struct Fastest {
+    double speed = 0.0;
+    std::array<double, D> x{};
+  } here;
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+    for_each_index<D>({}, blocks_[b].extent.n, [&](const std::array<int, D>& index) {
+      const auto c = static_cast<std::size_t>(blocks_[b].extent.at(index));
+      std::array<double, D> u{};
+      for (std::size_t k = 0; k < D; ++k) u[k] = level_[1][b].u[k][c];
+      const double speed = blocks_[b].solved[c] != 0.0 ? std::sqrt(dot(u, u)) : 0.0;
+      if (speed > here.speed) here = {speed, centre<D>(blocks_[b], static_cast<std::ptrdiff_t>(c))};
+    });
+  Fastest all;
+  for (const Fastest& part : exchange_.ranks().gather(std::vector<Fastest>{here}))
+    if (part.speed > all.speed) all = part;
+  if (!(all.speed > 0.0)) return "";
+  return " A step before, the fastest cell had " + number(all.speed) + " m/s, at (" + place<D>(all.x) +
+         ") m.";
 }
 
 template <int D>
@@ -316,18 +356,12 @@ void Stepper<D>::check_own(const std::string& advice) const {
       for (std::size_t k = 0; k < D; ++k) speed2 += q.u[k][c] * q.u[k][c];
       const double rho = equations_.fluid.rho(q.p[c]);
       if (std::isfinite(speed2) && std::isfinite(rho) && rho > 0.0) return;
-      std::string place;
-      for (std::size_t d = 0; d < D; ++d) {
-        char number[32];
-        std::snprintf(number, sizeof number, "%s%.4g", d ? ", " : "", block.centre[d][c]);
-        place += number;
-      }
       char text[256];
       std::snprintf(
           text, sizeof text,
           "t = %.6g s: density %.3g kg/m^3, p = %.3g Pa, |u| = %.3g m/s in block '%s' cell %s at (%s) m. ",
           time_, rho, q.p[c], std::sqrt(speed2), block.name.c_str(), cell_name<D>(block, index).c_str(),
-          place.c_str());
+          place<D>(centre<D>(block, static_cast<std::ptrdiff_t>(c))).c_str());
       throw StabilityError(std::string(text) + advice);
     });
   }

@@ -119,6 +119,7 @@ class Stepper {
   std::string size_of_step(double dt) const;
   void check(const std::string& advice) const;  // comm collective
   void check_own(const std::string& advice) const;
+  std::string fastest_before() const;
 
   std::vector<Block<D>> blocks_;
   Exchange<D> exchange_;

@@ -122,7 +122,7 @@ void FreeSurface<D>::end(std::vector<Block<D>>& blocks, const Exchange<D>& excha
                               inflow_through_openings<D>(blocks, equations, scheme_.dt, set_.phi, q)};
   exchange.ranks().sum(water);
   budget_.add(water[0], water[1], scheme_.dt);
-  thin_water_ = find_thin_water<D>(blocks, exchange, set_.band, wet_);
+  thin_water_ = find_thin_water<D>(blocks, exchange, set_.band, set_.phi, wet_);
   rate_ = exchange.ranks().largest(surface_rate<D>(blocks, set_.band, set_.surface_velocity));
 }
 

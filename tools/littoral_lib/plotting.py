@@ -10,6 +10,7 @@ from .errors import UserError
 from .moment import BLANKED, Moments
 
 COLOURS = {"sph": "#c1272d", "fv": "#0b5394", "all": "#222222"}
+CELLS_WITH_EDGES = 150  # cells along the picture up to which their edges are drawn
 NAMES = {"sph": "SPH particles", "fv": "FV cells"}
 
 
@@ -45,10 +46,23 @@ class Picture:
         return tables.read_csv(path) if path.is_file() else None
 
     def moment(self):
-        """Time of the field picture: of a wave when it is both raised and moving, else of the fastest water."""
+        """Time of the field picture: of a wave when it is both raised and moving, of a stream past the particles the last,
+        else of the fastest water."""
         if self.wave and self.moments.times()[-1] > 1.125 * self.wave.wave.period0:
             return 1.125 * self.wave.wave.period0
-        return self.moments.most_lively()
+        return self.moments.times()[-1] if self.closer() else self.moments.most_lively()
+
+    def closer(self):
+        """(x limits, z limits) around the particles' boxes where these are a small part of the water; None: show all."""
+        if not self.regions or self.moments is None or len(self.moments.series) < 2:
+            return None
+        low, high = (np.array([r[k] for r in self.regions]) for k in ("lower", "upper"))
+        low, high = low.min(axis=0), high.max(axis=0)
+        whole = self.moments.at(0.0)["fv"].x
+        if high[0] - low[0] > 0.5 * np.ptp(whole[:, 0]):
+            return None
+        margin = 0.5 * (high[0] - low[0])
+        return ((low[0] - margin, high[0] + margin), (max(whole[:, 2].min(), low[2] - margin), min(whole[:, 2].max(), high[2] + margin)))
 
     def excess_pressure(self, part):
         """p without the weight of the water at rest density, so that a kink of a few pascals is seen [Pa]."""
@@ -95,20 +109,43 @@ class Picture:
                 values = scalars[name] - (scalars[name][0] if name.startswith("pot") else 0)
                 axes.plot(scalars["time"], values, lw=1, label=name.replace("_", " "))
         axes.set(xlabel="time [s]", ylabel="energy [J] (potential: change)")
-        axes.legend(loc="upper right")
+        axes.legend(loc="best")
+
+    def elevations(self):
+        """{gauge: (time, elevation)} of both programs' elevation gauges."""
+        found = {}
+        for program in ("sph", "fv"):
+            path = self.out / program / "gauges.csv"
+            if path.is_file():
+                gauges = tables.read_csv(path)
+                found.update({name.removesuffix(".elevation"): (gauges["time"], gauges[name])
+                              for name in gauges.columns if name.endswith(".elevation")})
+        return found
+
+    def levels(self, axes, elevations):
+        for name, (time, level) in elevations.items():
+            axes.plot(time, level, lw=1, label=name)
+        axes.set(xlabel="time [s]", ylabel="elevation [m]")
+        axes.legend(loc="best", ncol=2)
 
     def field(self, axes, time, figure):
         parts = self.moments.at(time)
         top = max(float(part.speed[part.phi < 0].max() if part.phi is not None else part.speed.max())
                   for part in parts.values()) or 1.0
         drawn = None
+        closer = self.closer()
         for x, z, speed in parts["fv"].sheets() if "fv" in parts else ():
-            drawn = axes.pcolormesh(x, z, speed, cmap="viridis", vmin=0, vmax=top, edgecolors="white", linewidth=0.1)
+            shown = speed.shape[1] if closer is None else int(((x[0] > closer[0][0]) & (x[0] < closer[0][1])).sum())
+            edges = {"edgecolors": "white", "linewidth": 0.1} if shown < CELLS_WITH_EDGES else {"rasterized": True}
+            drawn = axes.pcolormesh(x, z, speed, cmap="viridis", vmin=0, vmax=top, **edges)
         for x, z, phi in parts["fv"].surfaces() if "fv" in parts else ():
-            axes.contour(x, z, phi, levels=[0.0], colors="#c1272d", linewidths=1.2)
+            if phi.count() and phi.min() < 0 < phi.max():
+                axes.contour(x, z, phi, levels=[0.0], colors="#c1272d", linewidths=1.2)
+        if closer:
+            axes.set(xlim=closer[0], ylim=closer[1])
         if "sph" in parts:
             shown = middle(parts["sph"])
-            size = dot_size(shown.x, axes)
+            size = dot_size(shown.x, axes, closer)
             drawn = axes.scatter(shown.x[:, 0], shown.x[:, 2], c=shown.speed, s=size, cmap="viridis", vmin=0,
                                  vmax=top, linewidths=0.15 if size > 2 else 0, edgecolors="white")
         for region in self.regions:
@@ -126,9 +163,7 @@ class Picture:
         parts = self.moments.at(time)
         for program, part in parts.items():
             shown = middle(part)
-            width = np.abs(shown.x[:, 0] - x_line)
-            dx = spacing(shown.x)
-            near = width <= (width.min() + 0.01 * dx if program == "fv" else dx)
+            near = column(shown, x_line) if program == "fv" else on_line(shown, x_line)
             if program == "fv" and shown.status is not None:
                 near &= shown.status != BLANKED
             if shown.phi is not None:
@@ -152,18 +187,38 @@ def spacing(x):
     return (np.prod(active) / len(x)) ** (1 / len(active))
 
 
+def on_line(part, x_line):
+    """Particles within a spacing of the upright line."""
+    away = np.abs(part.x[:, 0] - x_line)
+    return away <= max(spacing(part.x), away.min())
+
+
+def column(part, x_line):
+    """Of the cells at each height the one nearest to the upright line, where that is near."""
+    away = np.abs(part.x[:, 0] - x_line)
+    height = np.round(part.x[:, 2] / (1e-6 * np.ptp(part.x[:, 2])))
+    order = np.lexsort((away, height))
+    first = np.ones(len(order), bool)
+    first[1:] = np.diff(height[order]) > 0
+    near = np.zeros(len(order), bool)
+    near[order[first]] = True
+    return near & (away <= max(0.5 * spacing(part.x), away.min() * (1 + 1e-6)))
+
+
 def middle(part):
-    """In 3-D the points of the slice in the middle of y; in 2-D all of them."""
+    """In 3-D the points of the layer (cells) or slice (particles) nearest to the middle of y; in 2-D all of them."""
     y = part.x[:, 1]
     if np.ptp(y) < 1e-9 * np.ptp(part.x[:, 0]):
         return part
-    return part.pick(np.abs(y - 0.5 * (y.min() + y.max())) <= 0.6 * spacing(part.x))
+    away = np.abs(y - 0.5 * (y.min() + y.max()))
+    return part.pick(away <= max(0.6 * spacing(part.x), away.min() * (1 + 1e-6)))
 
 
-def dot_size(x, axes):
+def dot_size(x, axes, closer=None):
     """Area in points^2 of dots with room between them at the width of the axes."""
     width = axes.get_window_extent().width * 72 / axes.figure.dpi
-    return (0.6 * width * spacing(x) / max(np.ptp(x[:, 0]), np.ptp(x[:, 2]))) ** 2
+    across = max(np.ptp(x[:, 0]), np.ptp(x[:, 2])) if closer is None else closer[0][1] - closer[0][0]
+    return (0.6 * width * spacing(x) / across) ** 2
 
 
 def overview(picture, time, path):
@@ -174,6 +229,9 @@ def overview(picture, time, path):
     if picture.wave:
         picture.elevation(figure.add_subplot(grid[0, :3]))
         picture.energy(figure.add_subplot(grid[0, 3:]))
+    elif elevations := picture.elevations():
+        picture.history(figure.add_subplot(grid[0, :3]))
+        picture.levels(figure.add_subplot(grid[0, 3:]), elevations)
     else:
         picture.history(figure.add_subplot(grid[0, :]))
     if picture.moments:
@@ -190,11 +248,16 @@ def profiles(picture, time, axes):
     part = picture.moments.at(time)
     x = np.concatenate([p.x[:, 0] for p in part.values()])
     left, right = x.min(), x.max()
-    antinode, quarter = left, left + 0.25 * (right - left)
-    picture.profile(axes[0], time, picture.excess_pressure, antinode, f"p - rho g . x [Pa] at x = {antinode:.3g} m")
-    picture.profile(axes[1], time, lambda p: p.u[:, 2], antinode, f"w [m/s] at x = {antinode:.3g} m")
-    picture.profile(axes[2], time, lambda p: p.u[:, 0], quarter, f"u [m/s] at x = {quarter:.3g} m")
-    axes[0].legend(loc="best")
+    first, second = left, left + 0.25 * (right - left)  # of a wave in a tank an antinode and a node
+    if picture.closer():  # through the particles, and where they end
+        low, high = picture.regions[0]["lower"][0], picture.regions[0]["upper"][0]
+        first, second = 0.5 * (low + high), low
+    picture.profile(axes[0], time, picture.excess_pressure, first, f"p - rho g . x [Pa] at x = {first:.3g} m")
+    picture.profile(axes[1], time, lambda p: p.u[:, 2], first, f"w [m/s] at x = {first:.3g} m")
+    picture.profile(axes[2], time, lambda p: p.u[:, 0], second, f"u [m/s] at x = {second:.3g} m")
+    axes[0].set_ylim(picture.closer()[1] if picture.closer() else None)
+    if axes[0].get_legend_handles_labels()[0]:
+        axes[0].legend(loc="best")
 
 
 def command(args):

@@ -333,33 +333,48 @@ TEST(FreeSurfaceTest, StepsRepeatAndContinueToTheBit) {
   }
 }
 
-/// A pool and, above it, a sheet of `cells` cells that falls: where the sheet is one cell thick it is told
-/// of.
+/// What is told of water as thin as a cell after a short step from `level` in a tank of n x n cells.
+ThinWater<2> thin_water_under(int n, const std::function<double(double, double)>& level) {
+  Fluid<2> fluid;
+  fluid.gravity = {0.0, -k_g};
+  Block<2> tank = make_block<2>("tank", {n, n}, {}, [n](const std::array<int, 2>& i) {
+    return std::array<double, 2>{static_cast<double>(i[0]) / n, static_cast<double>(i[1]) / n};
+  });
+  close_with<2>(tank, Condition::slip);
+  Stepper<2> stepper = tank_with_surface<2>(
+      tank, fluid, [](const std::array<double, 2>&, double) { return PointState<2>{}; },
+      [&](const std::array<double, 3>& x, double) { return level(x[0], x[2]); });
+  stepper.advance(1e-3);
+  return stepper.surface()->thin_water();
+}
+
 TEST(FreeSurfaceTest, WaterAsThinAsACellIsCounted) {
   constexpr int n = 16;
-  for (const double cells : {1.0, 3.0}) {
-    Fluid<2> fluid;
-    fluid.gravity = {0.0, -k_g};
-    const double low = 0.5, high = low + cells / n;  // faces of cells
-    Block<2> tank = make_block<2>("tank", {n, n}, {}, [](const std::array<int, 2>& i) {
-      return std::array<double, 2>{static_cast<double>(i[0]) / n, static_cast<double>(i[1]) / n};
-    });
-    close_with<2>(tank, Condition::slip);
-    Stepper<2> stepper = tank_with_surface<2>(
-        tank, fluid, [](const std::array<double, 2>&, double) { return PointState<2>{}; },
-        [=](const std::array<double, 3>& x, double) {
-          const double sheet = std::max(low - x[2], x[2] - high);
-          return std::min(x[2] - 0.2, sheet);
-        });
-    stepper.advance(1e-3);
-    const ThinWater<2>& thin = stepper.surface()->thin_water();
-    if (cells > 2.0) {
-      EXPECT_EQ(thin.cells, 0.0);
-      continue;
+  const auto sheet_over_pool = [](double low, double high) {
+    return [=](double, double z) { return std::min(z - 0.2, std::max(low - z, z - high)); };
+  };
+  const ThinWater<2> sheet = thin_water_under(n, sheet_over_pool(0.5, 0.5 + 1.0 / n));
+  EXPECT_EQ(sheet.cells, n);
+  EXPECT_NEAR(sheet.place[1], 0.5 + 0.5 / n, 1e-12);
+  EXPECT_EQ(thin_water_under(n, sheet_over_pool(0.5, 0.5 + 3.0 / n)).cells, 0.0);
+  const auto drop = [](double x, double z) {
+    return std::min(z - 0.2, std::hypot(x - 0.5 - 0.5 / n, z - 0.7 - 0.05 / n) - 0.7 / n);
+  };
+  EXPECT_GT(thin_water_under(n, drop).cells, 0.0);
+}
+
+TEST(FreeSurfaceTest, TheTopOfAGentleCrestIsNotThinThoughAirIsOnBothItsSides) {
+  constexpr int n = 16;
+  for (const double height : {0.4, 0.45, 0.5})
+    for (const double steepness : {1e-9, 0.05, 0.3, 0.7}) {
+      const double k = 2.0 * M_PI, shift = 0.5 / n;
+      // just over the centres of the row under the crest
+      const double level = (std::floor(height * n) + 0.5) / n + 1e-12 - steepness / k;
+      const auto wave = [=](double x, double z) {
+        return z - level - steepness / k * std::cos(k * (x - 0.5 - shift));
+      };
+      EXPECT_EQ(thin_water_under(n, wave).cells, 0.0) << height << ' ' << steepness;
     }
-    EXPECT_EQ(thin.cells, n);
-    EXPECT_NEAR(thin.place[1], low + 0.5 / n, 1e-12);
-  }
 }
 
 }  // namespace

@@ -35,6 +35,15 @@ SETTINGS = {
     "no particles": (["scene.initial.surface=z + 2"], "particle|dry|water"),
     "fields that are no numbers": (["scene.initial.p=1/0"], "finite|nan|NaN|inf|number"),
 }
+# the same of a scene whose grid holds the surface
+SURFACE_SETTINGS = {
+    "gauge of elevation beside the grid": (["fv.gauges[0].at=[5, 0, 0]"], "gauge 'antinode'.*meets no block"),
+    "gauge of elevation without a surface": (["scene.initial.surface=z-10"], "gauge 'antinode'.*elevation"),
+    "band of no cells": (["fv.level_set.layers=0"], "level_set.layers.*0"),
+    "velocity continued less far than the band": (["fv.level_set.extension_layers=2"], "extension_layers"),
+    "misspelt correction": (["fv.level_set.volume_correction=locl"], "locl.*Did you mean 'local'"),
+    "surface that loses its value": (["scene.initial.surface=sqrt(x-0.5)"], "initial.surface.*nan"),
+}
 
 
 def judge(case, name, status, text, seconds, pattern):
@@ -54,6 +63,10 @@ def check(case):
     base = ["scene.constants.n=25", "scene.time.end=0.1"]
     for name, (settings, pattern) in SETTINGS.items():
         run = case.run("configs/standing_wave", name=re.sub(r"\W", "_", name), set=base + settings, may_fail=True)
+        judge(case, name, run.status, run.screen, run.seconds, pattern)
+
+    for name, (settings, pattern) in SURFACE_SETTINGS.items():
+        run = case.run("configs/wave_tank", solver="fv", name=re.sub(r"\W", "_", name), set=["scene.constants.n=32", *settings], may_fail=True)
         judge(case, name, run.status, run.screen, run.seconds, pattern)
 
     # a missing file
