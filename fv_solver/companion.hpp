@@ -28,6 +28,8 @@ class Companion {
   virtual void goodbye(const std::string& reason) = 0;
   /// Wall time spent waiting for the partner so far [s].
   virtual double waited() const { return 0.0; }
+  /// [s] that a partner cost beyond waiting and the steps themselves: donors, messages, samples put to use.
+  virtual double coupling_seconds() const { return 0.0; }
   virtual std::string description() const = 0;
 
   /// What a bitwise continuation needs of the companion; load after begin.

@@ -196,6 +196,7 @@ void Solver<D>::write_summary(const Companion<D>& companion, const std::string& 
   summary.wall_time = support::Timers::now() - begin_;
   summary.phases = timers_.table();
   for (const auto& phase : stepper_.phases().table()) summary.phases.push_back(phase);
+  summary.phases.emplace_back("coupling", companion.coupling_seconds());  // part of `solve`
   summary.phases.emplace_back("wait", companion.waited());
   const double solved = timers_.seconds(solve_), steps = static_cast<double>(std::max(1L, steps_));
   summary.results = {{"cells", cells()},

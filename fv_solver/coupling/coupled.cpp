@@ -7,6 +7,7 @@
 #include "coupling/carve.hpp"
 #include "coupling/force_cells.hpp"
 #include "grid/space.hpp"
+#include "littoral/support/timers.hpp"
 
 namespace littoral::fv {
 
@@ -50,6 +51,16 @@ std::optional<coupler::Agreement> Coupled<D>::agree(const coupler::Proposal& min
 
 template <int D>
 StepReport Coupled<D>::advance(const coupler::Window& window, Stepper<D>& stepper) {
+  // all of the window that is neither waiting nor a step
+  const auto others = [this] { return support::Timers::now() - waited() - stepping_seconds_; };
+  const double before = others();
+  StepReport report = advance_and_exchange(window, stepper);
+  coupling_seconds_ += others() - before;
+  return report;
+}
+
+template <int D>
+StepReport Coupled<D>::advance_and_exchange(const coupler::Window& window, Stepper<D>& stepper) {
   warn_of_long_windows(window.dt());
   warn_of_many_substeps(window);
   const Schedule schedule = scene_.coupling.schedule.schedule;
@@ -112,13 +123,11 @@ void Coupled<D>::step(const coupler::Window& window, const Values& values, Stepp
   const double drop = stepper.tolerance().drop;
   if (solve != Solve::whole) stepper.tolerance().drop = std::sqrt(drop);
   const bool again = solve == Solve::correction;
-  StepReport report;
-  if (!forced_) {
-    report = stepper.advance(window.dt(), values, again);
-  } else {
+  if (forced_)
     force_cells(*cells_, values, forcing_constant_, scene_.velocity_scale(), window.dt(), stepper);
-    report = stepper.advance(window.dt(), {}, again);
-  }
+  const double begin = support::Timers::now();
+  StepReport report = stepper.advance(window.dt(), forced_ ? Values{} : values, again);
+  stepping_seconds_ += support::Timers::now() - begin;
   stepper.tolerance().drop = drop;
   const int cycles = total.cycles + report.cycles;  // what the window cost, all tries together
   // a rough try is a guess, whatever it reached

@@ -34,6 +34,7 @@ class Coupled : public Companion<D> {
   StepReport advance(const coupler::Window& window, Stepper<D>& stepper) override;
   void goodbye(const std::string& reason) override { partner_->goodbye(reason); }
   double waited() const override { return partner_->waited(); }
+  double coupling_seconds() const override { return coupling_seconds_; }
   std::string description() const override { return partner_->description(); }
 
   void save(StateWriter<D>& file) const override;
@@ -47,6 +48,7 @@ class Coupled : public Companion<D> {
   /// whole: to the tolerance from the usual start; rough: a try on extrapolated data, which deserves half the
   /// decades; correction: from such a try, with the true data, the decades that it lacks.
   enum class Solve { whole, rough, correction };
+  StepReport advance_and_exchange(const coupler::Window& window, Stepper<D>& stepper);
   void step(const coupler::Window& window, const Values& values, Stepper<D>& stepper, StepReport& total,
             Solve solve = Solve::whole);
   Values receive(const coupler::Window& window, const Stepper<D>& stepper);
@@ -67,6 +69,7 @@ class Coupled : public Companion<D> {
   std::int64_t epoch_ = 0;
   double mass_flux_ = 0.0;     // [kg] into the region, since the start
   double column_depth_ = 0.0;  // [m]
+  double coupling_seconds_ = 0.0, stepping_seconds_ = 0.0;
   bool warned_ = false, warned_of_substeps_ = false;
 };
 

@@ -135,8 +135,7 @@ class Picture:
         drawn = None
         closer = self.closer()
         for x, z, speed in parts["fv"].sheets() if "fv" in parts else ():
-            shown = speed.shape[1] if closer is None else int(((x[0] > closer[0][0]) & (x[0] < closer[0][1])).sum())
-            edges = {"edgecolors": "white", "linewidth": 0.1} if shown < CELLS_WITH_EDGES else {"rasterized": True}
+            edges = {"edgecolors": "white", "linewidth": 0.1} if cells_across(x, z, closer) < CELLS_WITH_EDGES else {"rasterized": True}
             drawn = axes.pcolormesh(x, z, speed, cmap="viridis", vmin=0, vmax=top, **edges)
         for x, z, phi in parts["fv"].surfaces() if "fv" in parts else ():
             if phi.count() and phi.min() < 0 < phi.max():
@@ -212,6 +211,13 @@ def middle(part):
         return part
     away = np.abs(y - 0.5 * (y.min() + y.max()))
     return part.pick(away <= max(0.6 * spacing(part.x), away.min() * (1 + 1e-6)))
+
+
+def cells_across(x, z, closer):
+    """How many cells of a sheet, at their shorter sides, would stand side by side across the picture."""
+    sides = [np.hypot(np.diff(x, axis=axis), np.diff(z, axis=axis)) for axis in (0, 1)]
+    across = np.ptp(x) if closer is None else closer[0][1] - closer[0][0]
+    return across / max(min(np.median(side) for side in sides), 1e-300)
 
 
 def dot_size(x, axes, closer=None):
