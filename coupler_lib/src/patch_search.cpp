@@ -35,6 +35,14 @@ void PatchSearch<A>::Bounds::include(const Bounds& other) {
   include(other.upper);
 }
 template <int A>
+void PatchSearch<A>::Bounds::widen() {
+  for (std::size_t i = 0; i < A; ++i) {
+    const double slack = 1e-6 * (upper[i] - lower[i]);
+    lower[i] -= slack;
+    upper[i] += slack;
+  }
+}
+template <int A>
 bool PatchSearch<A>::Bounds::contains(const Point& x) const {
   for (std::size_t i = 0; i < A; ++i)
     if (!(x[i] >= lower[i] && x[i] <= upper[i])) return false;
@@ -78,6 +86,9 @@ PatchSearch<A>::PatchSearch(const DonorPatch& patch, const std::array<std::size_
     for (std::size_t k = 0; k < k_corners; ++k) complete = complete && usable_[corner(cell, k)];
     flag_[cell] = static_cast<std::uint8_t>(is_dual | (complete ? is_complete : 0));
   });
+  for_each(everything, [&](const Index& index) {
+    if (at_an_edge(index)) flag_[at(index)] |= is_edge;
+  });
   build(first, count);
 }
 
@@ -95,40 +106,34 @@ bool PatchSearch<A>::complete_at(const Index& index) const {
   return flag_[at(index)] & is_complete;
 }
 
+template <int A>
+bool PatchSearch<A>::at_an_edge(const Index& index) const {
+  if (!complete_at(index)) return false;
+  for (std::size_t d = 0; d < A; ++d) {
+    Index below = index, above = index;
+    --below[d];
+    ++above[d];
+    if (!complete_at(below) || !complete_at(above)) return true;
+  }
+  return false;
+}
+
 /// Where a dual cell can serve: itself, and beyond it towards neighbours that cannot.
 template <int A>
 typename PatchSearch<A>::Bounds PatchSearch<A>::reach(const Index& index) const {
   const Corners c = corners(at(index));
   Bounds bounds;
   for (const auto& corner_x : c) bounds.include(corner_x);
-  if (complete_at(index)) {
-    Point low, high;
-    bool extends = false;
-    for (std::size_t d = 0; d < A; ++d) {
-      Index below = index, above = index;
-      --below[d];
-      ++above[d];
-      low[d] = complete_at(below) ? 0.0 : -k_reach;
-      high[d] = complete_at(above) ? 1.0 : 1.0 + k_reach;
-      extends = extends || low[d] < 0.0 || high[d] > 1.0;
-    }
-    // beside an edge of the usable part the diagonal neighbour counts, too
-    if (extends) {
-      const Map map(c);
-      low.fill(-k_reach);
-      high.fill(1.0 + k_reach);
-      for (std::size_t k = 0; k < k_corners; ++k) {
-        Point xi;
-        for (std::size_t d = 0; d < A; ++d) xi[d] = (k >> d & 1) ? high[d] : low[d];
-        bounds.include(map(xi));
-      }
+  if (flag_[at(index)] &
+      is_edge) {  // on all sides: beside an edge of the usable part the diagonal neighbour counts, too
+    const Map map(c);
+    for (std::size_t k = 0; k < k_corners; ++k) {
+      Point xi;
+      for (std::size_t d = 0; d < A; ++d) xi[d] = (k >> d & 1) ? 1.0 + k_reach : -k_reach;
+      bounds.include(map(xi));
     }
   }
-  for (std::size_t i = 0; i < A; ++i) {
-    const double slack = 1e-6 * (bounds.upper[i] - bounds.lower[i]);
-    bounds.lower[i] -= slack;
-    bounds.upper[i] += slack;
-  }
+  bounds.widen();
   return bounds;
 }
 
@@ -175,6 +180,12 @@ std::size_t PatchSearch<A>::build(const Index& first, const Index& count) {
 template <int A>
 void PatchSearch<A>::consider(const Point& x, std::size_t cell, Candidate<A>& best) const {
   const Corners c = corners(cell);
+  if (!(flag_[cell] & is_edge)) {  // beyond it others serve: no need to invert its map
+    Bounds itself;
+    for (const Point& corner_x : c) itself.include(corner_x);
+    itself.widen();
+    if (!itself.contains(x)) return;
+  }
   const Map map(c);
   Candidate<A> candidate;
   candidate.cell = cell;

@@ -71,12 +71,13 @@ class PatchSearch {
 
  private:
   using Index = std::array<int, A>;
-  enum Flag : std::uint8_t { is_dual = 1, is_complete = 2, is_shared = 4 };
+  enum Flag : std::uint8_t { is_dual = 1, is_complete = 2, is_shared = 4, is_edge = 8 };
   struct Bounds {
     Point lower, upper;
     Bounds();
     void include(const Point& x);
     void include(const Bounds& other);
+    void widen();  // by a little
     bool contains(const Point& x) const;
     bool meets(const Bounds& other) const;
   };
@@ -88,6 +89,7 @@ class PatchSearch {
 
   std::size_t at(const Index& index) const;
   bool complete_at(const Index& index) const;
+  bool at_an_edge(const Index& index) const;  ///< complete, but not all around it
   Bounds reach(const Index& index) const;
   std::size_t build(const Index& first, const Index& count);
   void consider(const Point& x, std::size_t cell, Candidate<A>& best) const;
