@@ -12,7 +12,7 @@ def check(case):
         rows.append([n, w.period_error, w.kept, w.mass_error, w.elevation_error, jump["p"], jump["u"], w.ledger,
                      run.seconds])
         case.metric(f"n={n}: period error", w.period_error, between=(-0.015, 0.015))
-        # within 8% of the normal mode; at the demo's resolution, of the range down to the irrotational decay
+        # within 8% of the normal mode; at the coarser one, of the range down to the irrotational decay
         low = w.kept_high if n >= 50 else w.kept_low
         case.metric(f"n={n}: energy kept a period", w.kept, between=(0.92 * low, 1.08 * w.kept_high))
         case.metric(f"n={n}: mass error", w.mass_error, between=(-1e-3, 1e-3))
