@@ -17,11 +17,13 @@ void CouplingConfig::bind(support::Binder& b) {
             "the "
             "surface makes whole particles more rarely; for waves without a stream.");
     b.choice<SampleMethod>("samples", samples,
-                           {{"corrected", SampleMethod::corrected}, {"shepard", SampleMethod::shepard}})
+                           {{"corrected", SampleMethod::corrected},
+                            {"shepard", SampleMethod::shepard},
+                            {"quadratic", SampleMethod::quadratic}})
         .doc(
             "Values at the partner's points: corrected is exact for linear fields also near a surface, "
-            "shepard "
-            "for constants only.");
+            "shepard for constants only; quadratic for parabolas where the kernel is whole, else as "
+            "corrected.");
     b.key("phi_band", phi_band)
         .unit("particle spacings")
         .min(1.0)

@@ -13,7 +13,9 @@ namespace littoral::sph {
 ///   shepard    sum(W V q) / sum(W V): exact for constants only; below a flat surface it reads a hydrostatic
 ///              field 0.21 R too deep. Fit for complete supports
 ///   corrected  moving least squares with a linear basis, weights W V: exact for linear fields on any support
-enum class SampleMethod { shepard, corrected };
+///   quadratic  the same with a parabolic basis where the support is whole, corrected elsewhere: of a vortex,
+///              corrected takes the part .55 dx^2 lap(u) of its velocity (R = 4 dx in 2-D) at each crossing
+enum class SampleMethod { shepard, corrected, quadratic };
 
 struct SampleRules {
   SampleMethod method = SampleMethod::corrected;

@@ -122,6 +122,36 @@ TEST(SamplesTest, ConstantsAreExact) {
   constants_are_exact<2>(SampleMethod::corrected);
   constants_are_exact<3>(SampleMethod::shepard);
   constants_are_exact<3>(SampleMethod::corrected);
+  constants_are_exact<2>(SampleMethod::quadratic);
+  constants_are_exact<3>(SampleMethod::quadratic);
+}
+
+test::FormulaExterior parabolic() {
+  return test::FormulaExterior([](const coupler::Vec3& x, double) {
+    return coupler::DonorState{2.0 - x[2] * x[2] + x[0] * x[2], {x[2] * x[2], x[1] * x[0], x[0] * x[0]}, 0.0};
+  });
+}
+
+TEST(SamplesTest, QuadraticIsExactForParabolasWhereTheKernelIsWhole) {
+  const auto field = parabolic();
+  const auto targets = points({{0.5, 0.5, 0.5}, {0.31, 0.62, 0.47}, {0.5, 0.5, 1.0}});
+  const auto plane =
+      sample<2>(jittered<2>(field), targets, SampleMethod::quadratic, test::unit_box<2>({}, 0, 0));
+  const auto space =
+      sample<3>(jittered<3>(field), targets, SampleMethod::quadratic, test::unit_box<3>({}, 0, 0));
+  for (std::size_t t = 0; t < 2; ++t) {
+    std::int64_t hint = -1;
+    const auto exact = *field.at({targets.x[t], targets.y[t], targets.z[t]}, 0.0, hint);
+    EXPECT_NEAR(plane.p[t], exact.p, 1e-12);
+    EXPECT_NEAR(plane.w[t], exact.u[2], 1e-12);
+    EXPECT_NEAR(space.p[t], exact.p, 1e-12);
+    EXPECT_NEAR(space.v[t], exact.u[1], 1e-12);
+  }
+  const auto corrected =
+      sample<2>(jittered<2>(field), targets, SampleMethod::corrected, test::unit_box<2>({}, 0, 0));
+  // R^2 .0694 of the second derivative, 2, over 2: what the kernel's second moment adds
+  EXPECT_NEAR(corrected.w[0] - 0.25, 0.0694 * 16 * k_dx * k_dx, 0.1 * 0.0694 * 16 * k_dx * k_dx);
+  EXPECT_EQ(plane.w[2], corrected.w[2]) << "on the surface both are the fit of first order";
 }
 
 test::FormulaExterior linear() {
