@@ -51,6 +51,13 @@ class PairRows {
       for (std::size_t b = a + 1; b < D; ++b) q[next++] = static_cast<Real>(grad_u[a][b] + grad_u[b][a]);
     }
   }
+  /// div u of the gradients that were set [1/s].
+  double divergence(std::size_t i) const {
+    double sum = 0.0;
+    std::size_t next = k_strain;
+    for (std::size_t a = 0; a < D; next += D - a, ++a) sum += face_[i].q[next];
+    return sum;
+  }
   /// Gradients of all particles, from columns.
   void set_gradients(const Gradients<D>& gradients);
 

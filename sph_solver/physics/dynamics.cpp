@@ -41,6 +41,8 @@ Dynamics<D>::Dynamics(const Numerics<D>& numerics, const DomainBox<D>& box, Othe
       walls_(std::move(walls)),
       level_follows_(!numerics.free_surface),
       closed_(is_closed(box) && !any_moves(walls_.get())),
+      may_be_open_water_(!numerics.free_surface && walls_ == nullptr &&
+                         numerics.reconstruction != Reconstruction::first_order),
       pressure_level_(numerics.eos.p0) {
   if (numerics.precision == Precision::mixed) rows_.template emplace<PairRows<D, float>>();
   double g = 0.0;
@@ -242,7 +244,7 @@ void Dynamics<D>::step(Particles<D>& particles, double t, double dt, StepHooks<D
     if (walls_) walls_->move_to(stages.time(k, t, dt));
     if (level_follows_) take_off(middle_pressure(particles));
     right_hand_side(particles, stages.time(k, t, dt));  // (S3)-(S8), (S12)-(S14)
-    if (closed_ && level_follows_) keep_total_volume(particles);
+    if (level_follows_ ? closed_ : may_be_open_water_) keep_volume(particles, !level_follows_);
     if (walls_) walls_->add_stage_loads(particles, stages[k].weight);
     const bool last = k + 1 == stages.count;
     {
@@ -275,14 +277,21 @@ void Dynamics<D>::step(Particles<D>& particles, double t, double dt, StepHooks<D
 
 /// Takes the mean off the volumes' rates: water that fills a closed domain keeps its volume. (9) does not see
 /// to that, for of each pair V_i V_j (u_j - u_i) . grad W_ij is left, which a flow that arranges its
-/// particles (shear, strain) keeps above zero; the water would become denser and denser.
+/// particles (shear, strain) keeps above zero; the water would become denser and denser. In open faces, where
+/// water comes and goes, what is taken off is the mean of the inside beyond that of div u by (S3), which no
+/// arrangement changes; layers follow the partner whatever their rates.
 template <int D>
-void Dynamics<D>::keep_total_volume(const Particles<D>& particles) {
+void Dynamics<D>::keep_volume(const Particles<D>& particles, bool in_open_faces) {
   std::array<double, 2> sums{};  // of the rates, of V; in the order of the particles, whatever the threads
-  for (std::size_t i = 0; i < particles.n_owned; ++i) {
-    sums[0] += rate_.volume[i];
-    sums[1] += particles.V[i];
-  }
+  const auto add_up = [&](const auto& rows) {
+    for (std::size_t i = 0; i < particles.n_owned; ++i) {
+      if (in_open_faces && particles.zone[i] != Zone::interior) continue;
+      sums[0] += rate_.volume[i];
+      if (in_open_faces) sums[0] -= particles.V[i] * rows.divergence(i);
+      sums[1] += particles.V[i];
+    }
+  };
+  std::visit(add_up, rows_);
   if (others_ != nullptr) others_->take_sum(sums.data(), sums.size());
   const double mean = sums[1] > 0.0 ? sums[0] / sums[1] : 0.0;
   for (std::size_t i = 0; i < particles.n_owned; ++i) rate_.volume[i] -= mean * particles.V[i];

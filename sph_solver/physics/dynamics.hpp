@@ -104,7 +104,7 @@ class Dynamics {
     pressure_level_ = level;
     if (tension_ != nullptr) tension_->set_level(level);
   }
-  void keep_total_volume(const Particles<D>& particles);
+  void keep_volume(const Particles<D>& particles, bool in_open_faces);
   double middle_pressure(const Particles<D>& particles) const;
   void remember_start(const Particles<D>& particles);
   void check(const Particles<D>& particles, double t, double dt) const;
@@ -124,6 +124,7 @@ class Dynamics {
   bool crowding_known_ = false;          // detection has left it for the shift of this step
   bool level_follows_;                   // the particles' own pressure: nobody else sets it
   bool closed_;                          // by periodic sides, symmetry planes and bodies that stay
+  bool may_be_open_water_;               // no surface, no body: with a level from the partner it is
   double pressure_level_;                // [Pa] taken off in the pair loops
   double most_acceleration_ = 0.0;       // [m/s^2] of the last right-hand side, driven particles apart
 
