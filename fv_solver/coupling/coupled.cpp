@@ -123,8 +123,7 @@ void Coupled<D>::step(const coupler::Window& window, const Values& values, Stepp
   const double drop = stepper.tolerance().drop;
   if (solve != Solve::whole) stepper.tolerance().drop = std::sqrt(drop);
   const bool again = solve == Solve::correction;
-  if (forced_)
-    force_cells(*cells_, values, forcing_constant_, scene_.velocity_scale(), window.dt(), stepper);
+  if (forced_) force_cells(*cells_, values, forcing_constant_, scene_.velocity_scale(), window.dt(), stepper);
   const double begin = support::Timers::now();
   StepReport report = stepper.advance(window.dt(), forced_ ? Values{} : values, again);
   stepping_seconds_ += support::Timers::now() - begin;
