@@ -110,8 +110,8 @@ TEST(SamplesTest, BesideWallsLinearFieldsAreExactAndTheCoverageIsOfWhatTheyLeave
 
 TEST(SamplesTest, ARegionThatHasRunDryIsDryNotUncovered) {
   const auto targets = points({{0.5, 0.0, 0.5}, {0.5, 0.0, -0.25}});
-  const auto samples =
-      sample<2>(Particles<2>{}, targets, SampleMethod::corrected, test::unit_box<2>({}, 0.0, 0.0));
+  const auto open_below = test::unit_box<2>({{{false, false}, {true, false}}}, 0.1, 0.4);
+  const auto samples = sample<2>(Particles<2>{}, targets, SampleMethod::corrected, open_below);
   EXPECT_EQ(samples.status[0], coupler::SampleStatus::dry);
   EXPECT_EQ(samples.status[1], coupler::SampleStatus::uncovered) << "outside the box as before";
   EXPECT_EQ(samples.coverage[0], 0.0);
