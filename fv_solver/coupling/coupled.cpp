@@ -30,7 +30,7 @@ void Coupled<D>::begin(Stepper<D>& stepper) {
   column_depth_ = carving.column_depth;
   offer_.emplace(stepper.blocks(), exchange);
   check_layers_covered<D>(offer_->geometry(), scene_, exchange.ranks());
-  interface_.emplace(stepper.blocks(), exchange);
+  interface_ = FringeFaces<D>(stepper.blocks(), exchange);
   cells_.emplace(stepper, forced_ ? CellStatus::forced : CellStatus::fringe);
   this->tell(forced_ ? std::to_string(carving.n_forced) + " cells forced by the particles"
                      : std::to_string(carving.n_fringe) + " cells imposed by the particles, " +
@@ -64,7 +64,7 @@ StepReport Coupled<D>::advance_and_exchange(const coupler::Window& window, Stepp
   warn_of_long_windows(window.dt());
   warn_of_many_substeps(window);
   const Schedule schedule = scene_.coupling.schedule.schedule;
-  const double flux_before = interface_->mass_flux(stepper);
+  const double flux_before = flux_into_region(stepper);
   StepReport total;
   Values values;
 
@@ -96,12 +96,20 @@ StepReport Coupled<D>::advance_and_exchange(const coupler::Window& window, Stepp
   }
   cells_->accept(std::move(values), window.dt());
 
-  const double flux_after = interface_->mass_flux(stepper);
+  const double flux_after = flux_into_region(stepper);
   mass_flux_ += 0.5 * window.dt() * (flux_before + flux_after);
   coupler::Ledger mine;
   mine.fv_mass_flux = mass_flux_;
   ledger_ = partner_->exchange(window, mine);
   return total;
+}
+
+template <int D>
+double Coupled<D>::flux_into_region(const Stepper<D>& stepper) const {
+  const FreeSurface<D>* surface = stepper.surface();
+  return stepper.exchange().ranks().sum(interface_.flux(stepper.blocks(), stepper.exchange(), stepper.state(),
+                                                        surface != nullptr ? &surface->phi() : nullptr,
+                                                        &stepper.equations().fluid));
 }
 
 template <int D>

@@ -7,7 +7,6 @@
 
 #include "companion.hpp"
 #include "coupling/donors.hpp"
-#include "coupling/interface_flux.hpp"
 #include "coupling/target_cells.hpp"
 #include "littoral/coupler/partner.hpp"
 #include "littoral/support/scene.hpp"
@@ -53,6 +52,8 @@ class Coupled : public Companion<D> {
             Solve solve = Solve::whole);
   Values receive(const coupler::Window& window, const Stepper<D>& stepper);
   void send(const coupler::Window& window);
+  /// Mass flux from the computed cells into the region [kg/s]. comm collective
+  double flux_into_region(const Stepper<D>& stepper) const;
   void warn_of_long_windows(double dt);
   void warn_of_many_substeps(const coupler::Window& window);
 
@@ -62,7 +63,7 @@ class Coupled : public Companion<D> {
   bool forced_;
   std::optional<DonorOffer<D>> offer_;
   std::optional<TargetCells<D>> cells_;
-  std::optional<InterfaceFlux<D>> interface_;
+  FringeFaces<D> interface_;
   coupler::DonorValues donors_, result_;
   coupler::Samples samples_;
   coupler::Ledger ledger_;

@@ -79,7 +79,7 @@ class Stepper {
   /// Statuses have changed since the grid was made. comm collective, throws ConfigError
   void seek_donors() {
     exchange_.seek_donors(blocks_);
-    if (surface_) surface_->statuses_changed(blocks_, exchange_);
+    if (surface_) surface_->statuses_changed(blocks_, exchange_, equations_, level_[0]);
   }
   const Equations<D>& equations() const { return equations_; }
   /// Current state, ghosts current.

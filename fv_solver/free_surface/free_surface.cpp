@@ -45,16 +45,28 @@ void FreeSurface<D>::initialise(std::vector<Block<D>>& blocks, const Exchange<D>
   set_masks(blocks, exchange);
   start_pressure_ = settle_start_pressure<D>(blocks, exchange, equations.fluid, set_.band, set_.phi, q);
   continue_all(blocks, exchange, equations.fluid, q);
-  const double steady = BackwardDifference::steady().dt;
-  budget_ = {exchange.ranks().sum(water_volume<D>(blocks, set_.phi)),
-             exchange.ranks().sum(inflow_through_openings<D>(blocks, equations, steady, set_.phi, q)), 0.0};
+  budget_ = water(blocks, exchange, equations, BackwardDifference::steady().dt, q);
 }
 
 template <int D>
-void FreeSurface<D>::statuses_changed(std::vector<Block<D>>& blocks, const Exchange<D>& exchange) {
+void FreeSurface<D>::statuses_changed(std::vector<Block<D>>& blocks, const Exchange<D>& exchange,
+                                      const Equations<D>& equations, const std::vector<State<D>>& q) {
   set_masks(blocks, exchange);
-  budget_.volume =
-      exchange.ranks().sum(water_volume<D>(blocks, set_.phi));  // of the cells solved from now on
+  fringe_ = FringeFaces<D>(blocks, exchange);
+  const VolumeBudget now = water(blocks, exchange, equations, BackwardDifference::steady().dt, q);
+  budget_.volume = now.volume;  // of the cells solved from now on
+  budget_.from_partner = now.from_partner;
+}
+
+template <int D>
+VolumeBudget FreeSurface<D>::water(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange,
+                                   const Equations<D>& equations, double dt,
+                                   const std::vector<State<D>>& q) const {
+  std::array<double, 3> sums{water_volume<D>(blocks, set_.phi),
+                             inflow_through_openings<D>(blocks, equations, dt, set_.phi, q),
+                             -fringe_.flux(blocks, exchange, q, &set_.phi, nullptr)};
+  exchange.ranks().sum(sums);
+  return {sums[0], sums[1], 0.0, sums[2]};
 }
 
 template <int D>
@@ -118,10 +130,7 @@ void FreeSurface<D>::end(std::vector<Block<D>>& blocks, const Exchange<D>& excha
     restore_volumes<D>(blocks, exchange, set_.band, set_.patches, start_[0], set_.phi, past_);
   set_masks(blocks, exchange);
   continue_all(blocks, exchange, equations.fluid, q);
-  std::array<double, 2> water{water_volume<D>(blocks, set_.phi),
-                              inflow_through_openings<D>(blocks, equations, scheme_.dt, set_.phi, q)};
-  exchange.ranks().sum(water);
-  budget_.add(water[0], water[1], scheme_.dt);
+  budget_.add(water(blocks, exchange, equations, scheme_.dt, q), scheme_.dt);
   thin_water_ = find_thin_water<D>(blocks, exchange, set_.band, set_.phi, wet_);
   rate_ = exchange.ranks().largest(surface_rate<D>(blocks, set_.band, set_.surface_velocity));
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "free_surface/cut_faces.hpp"
+#include "free_surface/fringe_faces.hpp"
 #include "free_surface/imposed.hpp"
 #include "free_surface/inflow.hpp"
 #include "free_surface/start_pressure.hpp"
@@ -31,8 +32,9 @@ class FreeSurface {
   /// throws ConfigError where the function is not finite
   void initialise(std::vector<Block<D>>& blocks, const Exchange<D>& exchange, const Equations<D>& equations,
                   const Prescribed& surface, double t, std::vector<State<D>>& q);
-  /// Cells have become fringe, forced or blanked: which of them are solved, anew.
-  void statuses_changed(std::vector<Block<D>>& blocks, const Exchange<D>& exchange);
+  /// Cells have become fringe, forced or blanked: which of them are solved, anew. q: ghosts current
+  void statuses_changed(std::vector<Block<D>>& blocks, const Exchange<D>& exchange,
+                        const Equations<D>& equations, const std::vector<State<D>>& q);
 
   /// A step of `scheme` begins, `ahead` = dt/dt before (0 in the first). Fringe cells get `imposed` phi, that
   /// of the new time: at the surface as it is, further away where its sign is another.
@@ -81,6 +83,9 @@ class FreeSurface {
   static constexpr int k_settling = 6;
 
   void set_masks(std::vector<Block<D>>& blocks, const Exchange<D>& exchange);
+  /// Volume and inflows as they are, of all ranks. dt: of the step, for the wave speed at openings
+  VolumeBudget water(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange,
+                     const Equations<D>& equations, double dt, const std::vector<State<D>>& q) const;
   /// Sweeps of (7), (23); the residual before them [m/s].
   double move_phi(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange);
   void continue_flow(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange,
@@ -96,7 +101,8 @@ class FreeSurface {
   std::array<std::vector<Field>, 2> start_;  // [m] phi^n, phi^n-1 of the step just done or under way
   BackwardDifference scheme_;
   VolumeBudget budget_, budget_before_;  // now, and before the last begin
-  std::vector<WetMask> wet_;             // [block]
+  FringeFaces<D> fringe_;
+  std::vector<WetMask> wet_;  // [block]
   ThinWater<D> thin_water_;
   StartPressure start_pressure_;
   double rate_ = 0.0;                               // [1/s]

@@ -165,7 +165,7 @@ std::int64_t read_checkpoint(const std::string& path, Stepper<D>& stepper, const
                       " cells are interpolated in one and not in the other; restart with the same `overset`");
   if (stepper.surface() != nullptr) {
     const std::vector<double> water = some("water", 4);
-    memory.surface.budget = {water[0], water[1], water[2]};
+    memory.surface.budget = {water[0], water[1], water[2], 0.0};
     memory.surface.rate = water[3];
   }
   stepper.recall(memory);

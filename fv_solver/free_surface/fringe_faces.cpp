@@ -1,6 +1,7 @@
-#include "coupling/interface_flux.hpp"
+#include "free_surface/fringe_faces.hpp"
 
 #include "grid/loops.hpp"
+#include "level_set/volume.hpp"
 
 namespace littoral::fv {
 namespace {
@@ -14,8 +15,7 @@ double face_value(double before, double left, double right, double after) {
 }  // namespace
 
 template <int D>
-InterfaceFlux<D>::InterfaceFlux(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange)
-    : ranks_(exchange.ranks()) {
+FringeFaces<D>::FringeFaces(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange) {
   std::vector<Field> fringe;  // 1 in fringe cells, and ghosts that stand for one
   for (const Block<D>& block : blocks) {
     fringe.emplace_back(block.extent.size, 0.0);
@@ -36,20 +36,23 @@ InterfaceFlux<D>::InterfaceFlux(const std::vector<Block<D>>& blocks, const Excha
             faces_.push_back({b, d, cell, step});
     });
   }
+  any_ = exchange.ranks().largest(faces_.empty() ? 0.0 : 1.0) > 0.0;
 }
 
 template <int D>
-double InterfaceFlux<D>::mass_flux(const Stepper<D>& stepper) const {
-  double flux = 0.0;
-  std::vector<Field> water(stepper.blocks().size());
-  if (stepper.surface() != nullptr) {
-    for (std::size_t b = 0; b < water.size(); ++b)
-      wet_shares<D>(stepper.blocks()[b], stepper.surface()->phi()[b], water[b]);
-    stepper.exchange().scalar(stepper.blocks(), water, ScalarGhosts::cell_data);
+double FringeFaces<D>::flux(const std::vector<Block<D>>& blocks, const Exchange<D>& exchange,
+                            const std::vector<State<D>>& states, const std::vector<Field>* phi,
+                            const Fluid<D>* fluid) const {
+  if (!any_) return 0.0;
+  std::vector<Field> water(blocks.size());
+  if (phi != nullptr) {
+    for (std::size_t b = 0; b < water.size(); ++b) wet_shares<D>(blocks[b], (*phi)[b], water[b]);
+    exchange.scalar(blocks, water, ScalarGhosts::cell_data);
   }
+  double sum = 0.0;
   for (const Face& f : faces_) {
-    const Block<D>& block = stepper.blocks()[f.block];
-    const State<D>& q = stepper.state()[f.block];
+    const Block<D>& block = blocks[f.block];
+    const State<D>& q = states[f.block];
     const std::ptrdiff_t s =
         f.step * block.extent.stride[f.direction];  // ghosts hold images and other blocks
     const auto at = [&](const Field& field) {
@@ -60,16 +63,16 @@ double InterfaceFlux<D>::mass_flux(const Stepper<D>& stepper) const {
     const auto face = static_cast<std::size_t>(f.step < 0 ? f.cell : f.cell + s);
     double flow = 0.0;
     for (std::size_t k = 0; k < D; ++k) flow += f.step * at(q.u[k]) * block.area[f.direction][k][face];
-    double share = 1.0;
-    if (stepper.surface() != nullptr)
-      share = 0.5 * (water[f.block][static_cast<std::size_t>(f.cell)] +
+    if (fluid != nullptr) flow *= fluid->rho(at(q.p));
+    if (phi != nullptr)
+      flow *= 0.5 * (water[f.block][static_cast<std::size_t>(f.cell)] +
                      water[f.block][static_cast<std::size_t>(f.cell + s)]);
-    flux += share * stepper.equations().fluid.rho(at(q.p)) * flow;
+    sum += flow;
   }
-  return ranks_.sum(flux);
+  return sum;
 }
 
-template class InterfaceFlux<2>;
-template class InterfaceFlux<3>;
+template class FringeFaces<2>;
+template class FringeFaces<3>;
 
 }  // namespace littoral::fv
