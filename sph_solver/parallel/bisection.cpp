@@ -2,6 +2,8 @@
 
 #include <zoltan.h>
 
+#include <cstdint>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -48,6 +50,18 @@ void places(void* data, int, int, int n, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR local, int
     for (std::size_t d = 0; d < D; ++d) x[static_cast<std::size_t>(k) * D + d] = particles.x[d][local[k]];
 }
 
+/// The first rank's, whose particles will be the first.
+template <int D>
+Regions<D> undivided(int ranks) {
+  constexpr double far = std::numeric_limits<double>::max();
+  std::vector<RankBox<D>> boxes(static_cast<std::size_t>(ranks));
+  for (std::size_t r = 0; r < boxes.size(); ++r) {
+    boxes[r].lower.fill(r == 0 ? -far : far);
+    boxes[r].upper.fill(r == 0 ? far : -far);
+  }
+  return Regions<D>(std::move(boxes));
+}
+
 struct Partition {
   Zoltan_Struct* zz;
   ~Partition() { Zoltan_Destroy(&zz); }
@@ -68,6 +82,11 @@ struct Result {
 
 template <int D>
 Regions<D> bisect(const Particles<D>& particles, MPI_Comm comm) {
+  int size = 1;
+  MPI_Comm_size(comm, &size);
+  auto total = static_cast<std::int64_t>(particles.n_owned);
+  MPI_Allreduce(MPI_IN_PLACE, &total, 1, MPI_INT64_T, MPI_SUM, comm);
+  if (total == 0) return undivided<D>(size);
   float version = 0;
   demand(Zoltan_Initialize(0, nullptr, &version), "start");
   Partition partition{Zoltan_Create(comm)};
@@ -93,8 +112,6 @@ Regions<D> bisect(const Particles<D>& particles, MPI_Comm comm) {
                              &result.import_parts, &result.n_export, &result.export_global,
                              &result.export_local, &result.export_ranks, &result.export_parts),
          "partition");
-  int size = 1;
-  MPI_Comm_size(comm, &size);
   std::vector<RankBox<D>> boxes(static_cast<std::size_t>(size));
   for (int part = 0; part < size; ++part) {
     int dimensions = 0;
