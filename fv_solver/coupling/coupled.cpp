@@ -7,6 +7,7 @@
 #include "coupling/carve.hpp"
 #include "coupling/force_cells.hpp"
 #include "grid/space.hpp"
+#include "littoral/support/scene_warnings.hpp"
 #include "littoral/support/timers.hpp"
 
 namespace littoral::fv {
@@ -166,18 +167,19 @@ void Coupled<D>::warn_of_long_windows(double dt) {
   this->warn(text);
 }
 
-/// Beyond what was ever compared with M = 1: a step given in the scene that is out of proportion.
+/// Beyond what was ever compared with M = 1: a coupling.dt out of proportion (of substeps the scene itself
+/// tells).
 template <int D>
 void Coupled<D>::warn_of_many_substeps(const coupler::Window& window) {
-  constexpr int k_measured = 10, k_too_many = 2 * k_measured;  // the particles choose a step more or less
-  if (warned_of_substeps_ || window.substeps <= k_too_many) return;
+  if (warned_of_substeps_ || !scene_.coupling.window.dt || window.substeps <= support::k_too_many_substeps)
+    return;
   warned_of_substeps_ = true;
   char text[240];
   std::snprintf(
       text, sizeof text,
       "a window of %.3g s takes %d substeps of the particles; up to %d were compared with M = 1. Is "
-      "coupling.dt (or substeps) what you mean?",
-      window.dt(), window.substeps, k_measured);
+      "coupling.dt what you mean?",
+      window.dt(), window.substeps, support::k_measured_substeps);
   this->warn(text);
 }
 

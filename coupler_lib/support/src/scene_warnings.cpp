@@ -65,6 +65,10 @@ std::vector<std::string> scene_warnings(const Scene& s) {
                        ", less than sqrt(g H) = " + speed_text(wave_speed(s)) +
                        " with the domain's extent along gravity: its waves outrun the sound; weak "
                        "compressibility asks for ten times");
+  const coupler::WindowPolicy& window = s.coupling.window;
+  if (s.coupling.kind != Scene::CouplingKind::none && !window.dt && window.substeps > k_too_many_substeps)
+    warnings.push_back("coupling.substeps is " + std::to_string(window.substeps) + "; up to " +
+                       std::to_string(k_measured_substeps) + " were compared with M = 1");
   return warnings;
 }
 

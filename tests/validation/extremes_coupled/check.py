@@ -80,6 +80,8 @@ def substeps(t):
         errors[m] = wave.measure(run).elevation_error if run else np.nan
         t.measure(name, "rms error of the elevation", errors[m])
     t.measure(name, "the same over that of M = 10", errors[50] / errors[10], below=1.5)  # C16
+    problems, said = t.case.check("configs/standing_wave", ["scene.coupling.substeps=50"])
+    t.case.holds("M = 50: littoral check warns", not problems and any("substeps is 50" in line for line in said))
 
 
 def ratio_of_spacings(t):
