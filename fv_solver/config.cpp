@@ -38,11 +38,10 @@ void FvConfig::apply_fidelity() {
 
 void FvConfig::bind(Binder& b) {
   b.key("scene", scene).doc("The scene's file, relative to this one.");
-  b.choice("fidelity", fidelity,
-           {{"draft", Fidelity::draft}, {"standard", Fidelity::standard}, {"reference", Fidelity::reference}})
+  b.choice("fidelity", fidelity, support::k_fidelities)
       .doc(
           "Preset of dual_time.drop and flux, which may still be given: draft 1e-2, upwind3; standard 1e-3, "
-          "upwind3; reference 1e-5, central4.");
+          "upwind3; reference 1e-5, central4. Left out: the scene's.");
   if (b.mode() == Binder::Mode::read) apply_fidelity();
   b.choice("joins", joins, {{"auto", Joins::automatic}, {"listed", Joins::listed}})
       .doc(
@@ -198,7 +197,10 @@ FvConfig FvConfig::from_file(const std::string& path, const std::vector<std::str
   support::Document document = support::Document::from_file(path);
   for (const auto& setting : settings) document.set(setting);
   FvConfig config;
-  scene = support::read_both_files(document, scene_settings, [&](Binder& binder) { config.bind(binder); });
+  scene = support::read_both_files(document, scene_settings, [&](Binder& binder, const support::Scene& read) {
+    config.fidelity = read.fidelity;
+    config.bind(binder);
+  });
   for (GridFileConfig& grid : config.grid_files) grid.file = document.resolve(grid.file);
   return config;
 }

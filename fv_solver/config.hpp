@@ -194,7 +194,7 @@ struct FvConfig {
     Precision precision = Precision::single;
   } dual_time;
 
-  enum class Fidelity : std::uint8_t { draft, standard, reference };
+  using Fidelity = support::Fidelity;
   Fidelity fidelity = Fidelity::standard;
   void apply_fidelity();
 

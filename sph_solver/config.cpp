@@ -23,8 +23,6 @@ const std::vector<std::pair<std::string, WallStates>> k_wall_states = {
     {"extrapolated", WallStates::extrapolated}};
 const std::vector<std::pair<std::string, RiemannSolver>> k_riemann_solvers = {
     {"linearised", RiemannSolver::linearised}, {"low_dissipation", RiemannSolver::low_dissipation}};
-const std::vector<std::pair<std::string, Fidelity>> k_fidelities = {
-    {"draft", Fidelity::draft}, {"standard", Fidelity::standard}, {"reference", Fidelity::reference}};
 const std::vector<std::pair<std::string, Tension>> k_tensions = {{"plain", Tension::plain},
                                                                  {"switched", Tension::switched}};
 const std::vector<std::pair<std::string, Precision>> k_precisions = {{"double", Precision::all_double},
@@ -53,10 +51,10 @@ void Config::bind(support::Binder& b) {
           "lattice: rows; relaxed: even, without rows that a vortex would strain apart. relaxed wants a "
           "domain "
           "full of water without open sides.");
-  b.choice("fidelity", fidelity, k_fidelities)
+  b.choice("fidelity", fidelity, support::k_fidelities)
       .doc(
           "Defaults of other keys at once. draft: kernel_radius 3 in 2-D; standard; reference: riemann "
-          "low_dissipation.");
+          "low_dissipation. Left out: the scene's.");
   if (b.mode() == support::Binder::Mode::read) riemann = default_riemann(fidelity);
   b.key("kernel_radius", kernel_radius)
       .unit("dx")
@@ -175,7 +173,10 @@ RunConfig read_config(const std::string& path, const std::vector<std::string>& s
   for (const auto& setting : settings) document.set(setting);
   RunConfig config;
   config.scene = support::read_both_files(document, scene_settings,
-                                          [&](support::Binder& binder) { config.sph.bind(binder); });
+                                          [&](support::Binder& binder, const support::Scene& scene) {
+                                            config.sph.fidelity = scene.fidelity;
+                                            config.sph.bind(binder);
+                                          });
   check_gauges(path, config);
   for (auto& gauge : config.sph.gauges) gauge.dry_pressure = config.scene.fluid.reference_pressure;
   if (!std::isfinite(config.scene.fluid.sound_speed))

@@ -1,14 +1,11 @@
 #pragma once
 
-#include <cstdint>
-
+#include "littoral/support/fidelity.hpp"
 #include "physics/riemann.hpp"
 
 namespace littoral::sph {
 
-/// A scheme by one word, chosen from the table of tests/validation/sph_choices. What it sets are defaults: a
-/// key given in sph.yaml goes before it.
-enum class Fidelity : std::uint8_t { draft, standard, reference };
+using support::Fidelity;  // what it sets here: the table of tests/validation/sph_choices
 
 /// Kernel radius in spacings.
 constexpr double default_kernel_radius(Fidelity fidelity, int dimension) {

@@ -20,7 +20,7 @@ bool read_constants(const std::string& path, const std::vector<std::string>& set
 }  // namespace
 
 Scene read_both_files(const Document& own, const std::vector<std::string>& settings,
-                      const std::function<void(Binder&)>& bind_own) {
+                      const std::function<void(Binder&, const Scene&)>& bind_own) {
   std::string name = "scene.yaml";
   Binder first(own);
   first.key("scene", name).doc("The scene's file, relative to this one.");
@@ -35,7 +35,7 @@ Scene read_both_files(const Document& own, const std::vector<std::string>& setti
   }
   Binder binder(own);
   binder.use_constants(scene.constants);
-  bind_own(binder);
+  bind_own(binder, scene);
   for (const std::string& line : binder.problems()) problems += (problems.empty() ? "" : "\n") + line;
   if (!problems.empty()) throw ConfigError(problems);
   return scene;

@@ -41,6 +41,8 @@ std::string digest_of(const std::string& text) {
 void Scene::bind(Binder& b) {
   b.key("title", title).doc("Shown in logs and pictures.");
   b.key("dimension", dimension).min(2).max(3).doc("2: the plane (x, z); 3: z is up.");
+  b.choice("fidelity", fidelity, k_fidelities)
+      .doc("Cost and error of both programs by one word: default of each one's own key of this name.");
   b.numbers("constants", "For every formula of the scene; an entry may be a formula of the ones before it.",
             constants);
   b.section("fluid", "The water.", [&] {

@@ -38,6 +38,14 @@ TEST_F(FidelityTest, SetsDefaultsAndKeysGoBeforeThem) {
   EXPECT_NEAR(mixed.kernel_radius, 0.5, 1e-15);
 }
 
+TEST_F(FidelityTest, IsTheScenesWhereNoneIsGiven) {
+  const auto read_of = [&](const std::vector<std::string>& own) {
+    return read_config((folder_ / "sph.yaml").string(), own, {"fidelity=draft"}).sph.fidelity;
+  };
+  EXPECT_EQ(read_of({}), Fidelity::draft);
+  EXPECT_EQ(read_of({"fidelity=reference"}), Fidelity::reference);
+}
+
 TEST_F(FidelityTest, ResolvedFileReadsBackTheSame) {
   auto config =
       read_config((folder_ / "sph.yaml").string(), {"fidelity=reference", "riemann=linearised"}, {});

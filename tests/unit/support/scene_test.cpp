@@ -187,18 +187,23 @@ TEST_F(SceneTest, AWindowLongerThanTheRunIsRefused) {
 TEST_F(SceneTest, ProblemsOfBothFilesAreShownTogether) {
   write_text(folder_ / "scene.yaml", k_wave);
   write_text(folder_ / "own.yaml", "scene: scene.yaml\nlength: 2*H\n");
+  Fidelity preset{};
   const auto read_own = [&](const std::vector<std::string>& scene_settings, const std::string& own_setting) {
     Document own = Document::from_file(folder_ / "own.yaml");
     if (!own_setting.empty()) own.set(own_setting);
     double length = 0.0;
     std::string scene;
-    read_both_files(own, scene_settings, [&](Binder& b) {
+    read_both_files(own, scene_settings, [&](Binder& b, const Scene& read) {
+      preset = read.fidelity;
       b.key("scene", scene).doc("");
       b.key("length", length).min(0).doc("");
     });
     return length;
   };
   EXPECT_EQ(read_own({}, ""), 2.0);
+  EXPECT_EQ(preset, Fidelity::standard);
+  read_own({"fidelity=draft"}, "");
+  EXPECT_EQ(preset, Fidelity::draft);
   const std::string both = message_of<ConfigError>([&] { read_own({"fluid.density=-1"}, "lenght=3"); });
   EXPECT_NE(both.find("fluid.density"), std::string::npos) << both;
   EXPECT_NE(both.find("'lenght'"), std::string::npos) << both;

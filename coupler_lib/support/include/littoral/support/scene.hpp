@@ -11,6 +11,7 @@
 #include "littoral/coupler/window.hpp"
 #include "littoral/support/body.hpp"
 #include "littoral/support/config.hpp"
+#include "littoral/support/fidelity.hpp"
 #include "littoral/support/formula.hpp"
 
 namespace littoral::support {
@@ -20,6 +21,7 @@ namespace littoral::support {
 struct Scene {
   std::string title = "untitled";
   int dimension = 2;
+  Fidelity fidelity = Fidelity::standard;  // default of both programs' own
 
   struct Fluid {
     double density = 1000.0;          // rho0 [kg/m^3]
