@@ -133,8 +133,9 @@ void Coupled<D>::step(const coupler::Window& window, const Values& values, Stepp
   if (solve != Solve::whole) stepper.tolerance().drop = std::sqrt(drop);
   const bool again = solve == Solve::correction;
   if (forced_) force_cells(*cells_, values, forcing_constant_, scene_.velocity_scale(), window.dt(), stepper);
+  const Values none;
   const double begin = support::Timers::now();
-  StepReport report = stepper.advance(window.dt(), forced_ ? Values{} : values, again);
+  StepReport report = stepper.advance(window.dt(), forced_ ? none : values, again);
   stepping_seconds_ += support::Timers::now() - begin;
   stepper.tolerance().drop = drop;
   const int cycles = total.cycles + report.cycles;  // what the window cost, all tries together

@@ -1,5 +1,6 @@
 """littoral plot: the standard picture of a run."""
 
+import functools
 import pathlib
 
 import numpy as np
@@ -50,8 +51,9 @@ class Picture:
         else of the fastest water."""
         if self.wave and self.moments.times()[-1] > 1.125 * self.wave.wave.period0:
             return 1.125 * self.wave.wave.period0
-        return self.moments.times()[-1] if self.closer() else self.moments.most_lively()
+        return self.moments.times()[-1] if self.closer else self.moments.most_lively()
 
+    @functools.cached_property
     def closer(self):
         """(x limits, z limits) around the particles' boxes where these are a small part of the water; None: show all."""
         if not self.regions or self.moments is None or len(self.moments.series) < 2:
@@ -133,7 +135,7 @@ class Picture:
         top = max(float(part.speed[part.phi < 0].max() if part.phi is not None else part.speed.max())
                   for part in parts.values()) or 1.0
         drawn = None
-        closer = self.closer()
+        closer = self.closer
         for x, z, speed in parts["fv"].sheets() if "fv" in parts else ():
             edges = {"edgecolors": "white", "linewidth": 0.1} if cells_across(x, z, closer) < CELLS_WITH_EDGES else {"rasterized": True}
             drawn = axes.pcolormesh(x, z, speed, cmap="viridis", vmin=0, vmax=top, **edges)
@@ -255,13 +257,13 @@ def profiles(picture, time, axes):
     x = np.concatenate([p.x[:, 0] for p in part.values()])
     left, right = x.min(), x.max()
     first, second = left, left + 0.25 * (right - left)  # of a wave in a tank an antinode and a node
-    if picture.closer():  # through the particles, and where they end
+    if picture.closer:  # through the particles, and where they end
         low, high = picture.regions[0]["lower"][0], picture.regions[0]["upper"][0]
         first, second = 0.5 * (low + high), low
     picture.profile(axes[0], time, picture.excess_pressure, first, f"p - rho g . x [Pa] at x = {first:.3g} m")
     picture.profile(axes[1], time, lambda p: p.u[:, 2], first, f"w [m/s] at x = {first:.3g} m")
     picture.profile(axes[2], time, lambda p: p.u[:, 0], second, f"u [m/s] at x = {second:.3g} m")
-    axes[0].set_ylim(picture.closer()[1] if picture.closer() else None)
+    axes[0].set_ylim(picture.closer[1] if picture.closer else None)
     if axes[0].get_legend_handles_labels()[0]:
         axes[0].legend(loc="best")
 
